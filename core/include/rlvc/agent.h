@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: MIT */
+/* The agent: reinforcement learning of classes (section 4.2.1) in one block of the caller's memory.
+ *
+ *     rlvc_config_default, rlvc_agent_size, rlvc_agent_init      once
+ *     rlvc_begin                                                 at the start of an episode
+ *     rlvc_act, rlvc_observe                                     at each interaction
+ *     rlvc_learn                                                 now and then, in slices if need be
+ *     rlvc_predict, rlvc_print, ...                              at any time
+ *
+ * An agent is used by one thread at a time; distinct agents are independent. Every function here
+ * answers RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
+ * callback of the agent's own domain calls it; these two are not repeated below. */
+#ifndef RLVC_AGENT_H
+#define RLVC_AGENT_H
+
+#include "rlvc/domain.h"
+#include "rlvc/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rlvc_agent rlvc_agent;
+
+#define RLVC_ALIGNMENT 8u
+#define RLVC_REWARD_MAX 1e12f
+
+/* config.criterion: which classes are aliased (section 4.2.2). */
+#define RLVC_CRITERION_RETURNS 0u  /* truncated discounted returns under exploitation (definitions 1
+                                      and 2): the published one; each step k needs a fresh database */
+#define RLVC_CRITERION_RESIDUAL 1u /* one-step returns r + discount * V(class of s') per class and
+                                      action, on one growing database: needs far fewer interactions */
+
+/* config.score: how well a feature explains a partition (section 4.2.3). */
+#define RLVC_SCORE_GAIN 0u /* information gain */
+#define RLVC_SCORE_GINI 1u /* decrease of Gini impurity */
+#define RLVC_SCORE_CHI2 2u /* Pearson's chi-square statistic */
+
+/* config.solver: where the values of the classes come from (sections 2.3 and 7). */
+#define RLVC_SOLVER_VALUE_ITERATION 0u  /* batch, over the stored interactions */
+#define RLVC_SOLVER_POLICY_ITERATION 1u /* batch, likewise */
+#define RLVC_SOLVER_Q_LEARNING 2u       /* incremental: rlvc_observe updates Q, rlvc_learn only splits */
+#define RLVC_SOLVER_SARSA 3u            /* likewise, on-policy */
+
+/* config.untried: what a class-action pair without interactions is worth to the batch solvers. */
+#define RLVC_UNTRIED_EXCLUDED 0u   /* it does not count in the maximum over actions */
+#define RLVC_UNTRIED_OPTIMISTIC 1u /* config.optimistic_value */
+
+/* Chosen once, copied by rlvc_agent_init. Start from rlvc_config_default. */
+typedef struct rlvc_config {
+    uint32_t actions;          /* how many actions, [1, 255]; no default */
+    uint32_t capacity;         /* interactions the ring holds, [1, 2^31 - 1]; when it is full the oldest
+                                  leaves. A truncated or torn episode takes the room of one more.
+                                  Default 2000 */
+    uint32_t classes;          /* classes the tree may grow to, [1, 65535]. Default 64 */
+    uint32_t features_at_once; /* candidate features whose bit columns are held in memory together,
+                                  [1, 64]; fewer cost time instead. Default 64, or the domain's
+                                  features_max if that is known and less */
+    uint32_t min_samples;      /* fewer samples of a class and action than this are not tested for a
+                                  split, [2, 2^31 - 1]. Default 8 */
+    uint32_t max_sweeps;       /* sweeps after which a batch solver stops unconverged, [1, 2^31 - 1].
+                                  Default 10,000 */
+    uint32_t seed;             /* of the exploration; any value. Default 1 */
+    uint8_t criterion;         /* RLVC_CRITERION_*. Default RLVC_CRITERION_RESIDUAL */
+    uint8_t score;             /* RLVC_SCORE_*. Default RLVC_SCORE_GAIN */
+    uint8_t solver;            /* RLVC_SOLVER_*. Default RLVC_SOLVER_VALUE_ITERATION */
+    uint8_t untried;           /* RLVC_UNTRIED_*. Default RLVC_UNTRIED_EXCLUDED */
+    uint8_t continuing;        /* 1: the window of definition 1 runs on through a terminated
+                                  interaction into the next episode, as in the paper's teleporting
+                                  maze; 0: it ends there. Default 0 */
+    uint8_t reserved[3];       /* 0 */
+    float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
+    float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.8 */
+    float alpha;               /* a split is kept if its p-value, corrected for the number of tests
+                                  tried, is below this, (0, 1]. Default 0.001 */
+    float tolerance;           /* a batch solver's values are within this of the fixed point, in units
+                                  of reward, (0, RLVC_REWARD_MAX]; targets nearer than twice this
+                                  count as equal under the residual criterion. Default 0.01 */
+    float learning_rate;       /* of the incremental solvers, (0, 1]. Default 0.1 */
+    float optimistic_value;    /* for RLVC_UNTRIED_OPTIMISTIC, in units of return,
+                                  +-RLVC_REWARD_MAX. Default 0 */
+} rlvc_config;
+
+/* Fills *config with the defaults for a domain and a number of actions. The domain is only looked at
+ * for features_max; nothing is checked. O(1).
+ * @return RLVC_OK. */
+RLVC_API rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain,
+                                         uint32_t actions);
+
+/* Checks every field of a config and a domain. O(1).
+ * @param why optional; becomes a constant sentence that names the first field out of range and its
+ *            range, or "ok".
+ * @return RLVC_OK; RLVC_E_CONFIG. */
+RLVC_API rlvc_status rlvc_config_check(const rlvc_config *config, const rlvc_domain *domain,
+                                       const char **why);
+
+/* The exact size of an agent's block on this target. O(1).
+ * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if no size_t holds the size: *bytes is then 0. */
+RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain,
+                                     size_t *bytes);
+
+/* An upper bound of rlvc_agent_size as a constant expression, for static arrays; at most
+ * RLVC_AGENT_FIXED_BYTES above it. */
+#define RLVC_AGENT_FIXED_BYTES 1024u
+#define RLVC_ROUND_UP_8(n) (((size_t)(n) + 7u) / 8u * 8u)
+#define RLVC_AGENT_BYTES(actions, capacity, classes, percept_bytes, feature_bytes,                    \
+                         features_at_once)                                                         \
+    (RLVC_AGENT_FIXED_BYTES + RLVC_REPLAY_BYTES(capacity, percept_bytes) +                         \
+     RLVC_TREE_BYTES(classes, feature_bytes) + RLVC_VALUES_BYTES(classes, actions) +               \
+     RLVC_SEARCH_BYTES(capacity, feature_bytes, features_at_once))
+/* ... whose parts are: the ring's slots, one more than the capacity; */
+#define RLVC_REPLAY_BYTES(capacity, percept_bytes)                                                 \
+    (RLVC_ROUND_UP_8(((size_t)(capacity) + 1u) * (percept_bytes)) +                                \
+     RLVC_ROUND_UP_8(((size_t)(capacity) + 1u) * 4u) +                                             \
+     RLVC_ROUND_UP_8(((size_t)(capacity) + 1u) * 2u) +                                             \
+     RLVC_ROUND_UP_8((size_t)(capacity) + 1u) * 2u)
+/* the nodes, and the record and the feature of each split; */
+#define RLVC_TREE_BYTES(classes, feature_bytes)                                                    \
+    (RLVC_ROUND_UP_8((2u * (size_t)(classes) - 1u) * 4u) +                                         \
+     RLVC_ROUND_UP_8(((size_t)(classes) - 1u) * RLVC_SPLIT_BYTES) +                                \
+     RLVC_ROUND_UP_8(((size_t)(classes) - 1u) * (feature_bytes)))
+#define RLVC_SPLIT_BYTES 32u
+/* the tables by class and action, and by class; */
+#define RLVC_VALUES_BYTES(classes, actions)                                                        \
+    (RLVC_ROUND_UP_8((size_t)(classes) * (actions) * 4u) * 3u +                                    \
+     RLVC_ROUND_UP_8(((size_t)(classes) * (actions) + 1u) * 4u) +                                  \
+     RLVC_ROUND_UP_8((size_t)(classes) * 4u) * 2u + RLVC_ROUND_UP_8((size_t)(classes) * 2u) +      \
+     RLVC_ROUND_UP_8(classes))
+/* and the samples, cutpoints and bit columns of the search for a split. */
+#define RLVC_SEARCH_BYTES(capacity, feature_bytes, features_at_once)                               \
+    (RLVC_ROUND_UP_8((size_t)(capacity) * 8u) +                                                    \
+     (((size_t)(capacity) + 63u) / 64u + 1u) * 8u +                                                \
+     RLVC_SEARCH_COLUMN_BYTES(capacity, features_at_once) +                                        \
+     RLVC_ROUND_UP_8((size_t)(features_at_once) * (feature_bytes)) +                               \
+     RLVC_ROUND_UP_8(feature_bytes) * 2u)
+#define RLVC_SEARCH_COLUMN_BYTES(capacity, features_at_once)                                       \
+    ((((size_t)(capacity) + 63u) / 64u * (features_at_once) * 8u) > 2048u                          \
+         ? (((size_t)(capacity) + 63u) / 64u * (features_at_once) * 8u)                            \
+         : 2048u)
+
+/* Makes a new agent in the caller's block: one class that holds every percept, no interaction, step
+ * k = 0. The config and the domain are copied; the block belongs to the agent until the caller takes
+ * it back (there is nothing to free). It must not be moved. O(classes * actions).
+ * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_agent_size or more
+ * @return RLVC_OK; RLVC_E_CONFIG; RLVC_E_MEMORY: the block is untouched and *agent is null. */
+RLVC_API rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain,
+                                     void *memory, size_t bytes, rlvc_agent **agent);
+
+/* ------------------------------------------------------------------ acting and observing */
+
+/* What was done, and why: e_t of section 4.2.1. */
+typedef struct rlvc_choice {
+    uint8_t action;    /* [0, actions) */
+    uint8_t exploited; /* 1: the greedy action of the agent's policy; 0: any other reason */
+} rlvc_choice;
+
+/* How an interaction ended. */
+#define RLVC_GOES_ON 0u    /* s' follows, and is the next current percept */
+#define RLVC_TERMINATED 1u /* the episode is over by its own rules: nothing is to be had after it */
+#define RLVC_TRUNCATED 2u  /* cut short from outside (a time limit): s' is still worth something */
+
+/* Starts an episode at a percept, which is copied. If one was under way, it is torn here, as if its
+ * last interaction had been truncated. O(percept_bytes).
+ * @return RLVC_OK; RLVC_E_BUSY. */
+RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
+
+/* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon a
+ * run of k + 1 greedy actions begins (of one under the residual criterion), as section 4.2.1 asks;
+ * otherwise one action is drawn at random. Each call is a new decision. O(depth of the tree) calls of
+ * exhibits().
+ * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_CALLBACK. */
+RLVC_API rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice);
+
+/* Stores the interaction <s, a, r, s', e> whose s is the current percept. The choice need not come from
+ * rlvc_act. O(percept_bytes); with an incremental solver also O(depth) calls of exhibits().
+ * @param next s', copied; optional (not looked at) if `end` is RLVC_TERMINATED
+ * @param end  RLVC_GOES_ON, or RLVC_TERMINATED or RLVC_TRUNCATED: then call rlvc_begin next
+ * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_RANGE: action, exploited or end;
+ *         RLVC_E_REWARD; RLVC_E_BUSY; RLVC_E_CALLBACK. */
+RLVC_API rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
+                                  const void *next, uint8_t end);
+
+/* ------------------------------------------------------------------ learning */
+
+#define RLVC_BUDGET_MIN 64u
+#define RLVC_BUDGET_UNBOUNDED UINT32_MAX
+
+typedef struct rlvc_progress {
+    uint32_t work;   /* work done by this call, at most its budget */
+    uint32_t rounds; /* rounds of refinement begun in this step so far */
+    uint32_t splits; /* splits made in this step so far */
+    uint8_t done;    /* 1: the step is finished; 0: call again */
+    uint8_t reserved[3];
+} rlvc_progress;
+
+/* One step of section 4.2.1 (parts 3a to 3c) on the interactions stored when it begins: refines every
+ * aliased class until none is left, then solves for the values and increments k. Call it until
+ * progress->done; what it makes does not depend on the budgets. Interactions observed in between wait
+ * for the next step. Under the returns criterion the end of a step empties the ring, since the next
+ * needs a fresh database.
+ *
+ * The unit of work is one sample looked at (SPEC.md says what each part of the method is charged);
+ * RLVC_BUDGET_UNBOUNDED does the whole step. A tree that is full is no error: rlvc_stats counts the
+ * splits refused.
+ * @param budget [RLVC_BUDGET_MIN, UINT32_MAX]
+ * @return RLVC_OK; RLVC_E_RANGE: budget; RLVC_E_CALLBACK: what was done before the callback failed
+ *         stands, as though the budget had ended there, and the next call tries that callback again;
+ *         *progress tells. */
+RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress);
+
+/* ------------------------------------------------------------------ asking */
+
+/* The class of a percept and its greedy action: the learnt policy. Changes nothing. While a learning
+ * step is under way the actions are those of the last solution. O(depth) calls of exhibits().
+ * @param class_id, action each optional
+ * @return RLVC_OK; RLVC_E_CALLBACK: *class_id and *action unchanged. */
+RLVC_API rlvc_status rlvc_predict(const rlvc_agent *agent, const void *percept, uint32_t *class_id,
+                                  uint32_t *action);
+
+typedef struct rlvc_statistics {
+    uint64_t interactions; /* observed since init */
+    uint32_t stored;       /* of these, still in the ring */
+    uint32_t step;         /* k: learning steps finished */
+    uint32_t classes;      /* [1, config.classes] */
+    uint32_t depth;        /* of the tree: tests on its longest path */
+    uint32_t last_split;   /* the step k at which the newest split was made; 0 if none */
+    uint32_t refused;      /* splits that proved real but found the tree full, since init */
+    uint32_t sweeps;       /* of the last solution */
+    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep */
+} rlvc_statistics;
+
+/* @return RLVC_OK. O(splits). */
+RLVC_API rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics);
+
+/* Q(class, action) of the last solution, and how many interactions it rests on (0: untried, and q is
+ * what config.untried makes of it). O(1).
+ * @param q, samples each optional
+ * @return RLVC_OK; RLVC_E_RANGE: class_id or action. */
+RLVC_API rlvc_status rlvc_q(const rlvc_agent *agent, uint32_t class_id, uint32_t action, float *q,
+                            uint32_t *samples);
+
+/* V(class) and the greedy action of the last solution. O(1).
+ * @param value, action each optional
+ * @return RLVC_OK; RLVC_E_RANGE: class_id. */
+RLVC_API rlvc_status rlvc_value(const rlvc_agent *agent, uint32_t class_id, float *value,
+                                uint32_t *action);
+
+/* One split of the tree, in the order in which they were made: split 0 is the root. Split j of class c
+ * leaves the percepts without the feature in class c, and gives those with it the new class j + 1. */
+typedef struct rlvc_split {
+    uint32_t class_id;       /* the class that was split */
+    uint32_t step;           /* k at that time */
+    uint32_t action;         /* the action whose targets betrayed the aliasing */
+    uint32_t samples;        /* of that class and action */
+    uint32_t tests;          /* (feature, cutpoint) pairs tried: the correction of the p-value */
+    float score;             /* of the split, as config.score measures it */
+    float log_p;             /* natural logarithm of the corrected p-value */
+} rlvc_split;
+
+/* @param split, feature each optional; feature gets feature_bytes
+ * @return RLVC_OK; RLVC_E_RANGE: index is not below classes - 1. O(1). */
+RLVC_API rlvc_status rlvc_split_at(const rlvc_agent *agent, uint32_t index, rlvc_split *split,
+                                   void *feature);
+
+/* Receives `bytes` of text, not terminated. Returns 0, or anything else to fail. */
+typedef int (*rlvc_write)(void *ctx, const char *text, size_t bytes);
+
+#define RLVC_PRINT_TEXT 0u /* indented, one node a line */
+#define RLVC_PRINT_DOT 1u  /* a Graphviz digraph */
+#define RLVC_PRINT_JSON 2u /* one object; SPEC.md gives its form */
+
+/* Prints the tree with the action, value and numbers of each class. O(nodes * depth).
+ * @return RLVC_OK; RLVC_E_RANGE: format; RLVC_E_CALLBACK: a write, or the domain's name(), failed; the
+ *         text ends where it did. */
+RLVC_API rlvc_status rlvc_print(const rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
+
+/* Checks every invariant of the agent's memory (SPEC.md lists them): for tests, and for whoever
+ * suspects his memory. O(capacity + classes * actions).
+ * @return RLVC_OK; RLVC_E_MEMORY: damaged. */
+RLVC_API rlvc_status rlvc_agent_check(const rlvc_agent *agent);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* The chi-square distribution (section 4.2.4), in binary32 and without a C library. */
+#ifndef RLVC_CHI2_H
+#define RLVC_CHI2_H
+
+#include "rlvc/status.h"
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RLVC_CHI2_DEGREES_MAX 255u
+
+/* The survival function P(X >= statistic) for X chi-square distributed, and its natural logarithm,
+ * which stays exact where p underflows to 0. Relative error at most 1e-5 in p where p >= 1e-30, and in
+ * log_p everywhere. O(degrees).
+ * @param statistic [0, FLT_MAX], finite
+ * @param degrees   of freedom, [1, RLVC_CHI2_DEGREES_MAX]
+ * @param p, log_p  each optional
+ * @return RLVC_OK; RLVC_E_RANGE: statistic or degrees. */
+RLVC_API rlvc_status rlvc_chi2_survival(float statistic, uint32_t degrees, float *p, float *log_p);
+
+/* The critical value: the statistic whose survival is p, to 1e-5 relative. O(degrees), at most 64
+ * evaluations of the survival function.
+ * @param p [1e-30, 1)
+ * @return RLVC_OK; RLVC_E_RANGE: p or degrees. */
+RLVC_API rlvc_status rlvc_chi2_critical(float p, uint32_t degrees, float *statistic);
+
+/* Pearson's statistic of a 2 x 2 table of counts, without continuity correction; 0 if a row or a
+ * column is empty. Each count [0, 2^31 - 1], their sum too. O(1).
+ *                 present   absent
+ *      below         a         b
+ *      above         c         d
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: the sum. */
+RLVC_API rlvc_status rlvc_chi2_table(uint32_t a, uint32_t b, uint32_t c, uint32_t d,
+                                     float *statistic);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

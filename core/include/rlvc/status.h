@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* What every function of the library answers.
+ *
+ * A function that fails leaves its arguments and the agent as they were, unless its own text says
+ * otherwise (only rlvc_learn does: what it finished before a callback failed, stands). */
+#ifndef RLVC_STATUS_H
+#define RLVC_STATUS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(RLVC_SHARED) && defined(__GNUC__)
+#define RLVC_API __attribute__((visibility("default")))
+#else
+#define RLVC_API
+#endif
+
+/* Values are pinned and only ever appended to. An enum may be one byte wide on a bare-metal Arm
+ * (-fshort-enums), so it is a return type only and never a struct's field. */
+typedef enum rlvc_status {
+    RLVC_OK = 0,
+    RLVC_E_NULL = -1,     /* a pointer that must not be null is null */
+    RLVC_E_CONFIG = -2,   /* a field of the config or the domain is out of range:
+                             rlvc_config_check says which */
+    RLVC_E_MEMORY = -3,   /* the block is too small or not aligned to RLVC_ALIGNMENT */
+    RLVC_E_ORDER = -4,    /* there is no current percept: call rlvc_begin first */
+    RLVC_E_RANGE = -5,    /* an action, class, index or budget is out of range */
+    RLVC_E_REWARD = -6,   /* a reward is not a finite number within +-RLVC_REWARD_MAX */
+    RLVC_E_BUSY = -7,     /* the ring is full and its oldest interaction is still being learnt from:
+                             finish the learning first */
+    RLVC_E_CALLBACK = -8, /* a callback of the domain, or the caller's write, failed */
+    RLVC_E_REENTERED = -9 /* a callback called back into the agent that had called it */
+} rlvc_status;
+
+/* A constant English sentence for a status; never null, also for a value that is none. O(1). */
+RLVC_API const char *rlvc_status_text(rlvc_status status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
