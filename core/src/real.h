@@ -1,8 +1,91 @@
 /* SPDX-License-Identifier: MIT */
+/* The elementary functions that the method needs, in binary32 out of + - * / and bit moves only.
+ *
+ * The functions of C libraries differ in their last bits from one library to the next, and so would
+ * the trees; these do not. A float is taken apart as x = m * 2^e, and
+ *
+ *     ln(m * 2^e) = e ln 2 + 2 artanh(s),  s = (m - 1) / (m + 1),  m in [sqrt(1/2), sqrt(2))
+ *     artanh(s)   = s + s^3/3 + s^5/5 + s^7/7 + s^9/9 + ...,      |s| < 0.1716
+ *     exp(x)      = 2^n exp(x - n ln 2),  n the integer nearest to x / ln 2.
+ *
+ * m - 1 is exact and e is 0 around 1, hence logarithms are accurate relative to themselves there
+ * too. The logarithms are inline and free of branches, for the search evaluates the score very
+ * often. Relative errors measured over all floats of the domain: see tests/core/test_real.c. */
 #ifndef RLVC_SRC_REAL_H
 #define RLVC_SRC_REAL_H
+
 #include <stdint.h>
-float rlvc_ln(float x);  /* x > 0, finite */
-float rlvc_log2(float x);
-float rlvc_exp(float x); /* <= 0 */
+
+/* ln 2 in two parts: the first has 12 bits, so that its product with an exponent is exact. */
+#define RLVC_LN2_HIGH 0.693115234375f
+#define RLVC_LN2_LOW 3.19461833e-05f
+#define RLVC_LOG2_E 1.44269504f
+
+typedef union rlvc_float_bits {
+    float value;
+    uint32_t bits;
+} rlvc_float_bits;
+
+static inline uint32_t rlvc_bits_of(float x) {
+    rlvc_float_bits pun;
+    pun.value = x;
+    return pun.bits;
+}
+
+static inline float rlvc_float_of(uint32_t bits) {
+    rlvc_float_bits pun;
+    pun.bits = bits;
+    return pun.value;
+}
+
+/* m of x = m * 2^e with m in [least, 2 * least), where least has the bits `least_bits` and lies in
+ * (1/2, 1]. x is positive and normal. */
+static inline float rlvc_take_apart(float x, uint32_t least_bits, int32_t *e) {
+    const uint32_t one_bits = 0x3f800000u;
+    uint32_t shifted = rlvc_bits_of(x) + (one_bits - least_bits);
+    *e = (int32_t)(shifted >> 23) - 127;
+    return rlvc_float_of((shifted & 0x007fffffu) + least_bits);
+}
+
+/* 2 artanh(s) = ln((1 + s) / (1 - s)) for |s| < 0.1716. */
+static inline float rlvc_artanh_twice(float s) {
+    float square = s * s;
+    float twice = s + s;
+    float series = 0.333333333f + square * (0.2f + square * (0.142857143f + square * 0.111111111f));
+    return twice + twice * (square * series);
+}
+
+#define RLVC_SQRT_HALF_BITS 0x3f3504f3u
+
+/* Natural logarithm of a positive normal x. */
+static inline float rlvc_ln(float x) {
+    int32_t e;
+    float m = rlvc_take_apart(x, RLVC_SQRT_HALF_BITS, &e);
+    float ln_m = rlvc_artanh_twice((m - 1.0f) / (m + 1.0f));
+    return (float)e * RLVC_LN2_HIGH + ((float)e * RLVC_LN2_LOW + ln_m);
+}
+
+/* Logarithm to the base 2 of a positive normal x; exact at powers of two. */
+static inline float rlvc_log2(float x) {
+    int32_t e;
+    float m = rlvc_take_apart(x, RLVC_SQRT_HALF_BITS, &e);
+    return (float)e + rlvc_artanh_twice((m - 1.0f) / (m + 1.0f)) * RLVC_LOG2_E;
+}
+
+/* ln(1 - q) for q in [0, 1), accurate relative to itself for small q too. */
+float rlvc_ln_1_minus(float q);
+
+/* x * 2^e, rounded once, for |x| in [1/8, 8] and e <= 120; 0 for e < -200. */
+float rlvc_scale(float x, int32_t e);
+
+/* exp(x) for x <= 0; 0 below ln of the least float. */
+float rlvc_exp(float x);
+
+/* exp(x) = result * 2^e, result in [0.7, 1.42], for x in [-1400, 0]: where exp(x) itself would
+ * underflow before what it is multiplied with makes up for it. */
+float rlvc_exp_apart(float x, int32_t *e);
+
+/* Square root of a positive normal x. */
+float rlvc_sqrt(float x);
+
 #endif
