@@ -10,7 +10,8 @@
  *
  * m - 1 is exact and e is 0 around 1, hence logarithms are accurate relative to themselves there
  * too. The logarithms are inline and free of branches, for the search evaluates the score very
- * often. Relative errors measured over all floats of the domain: see tests/core/test_real.c. */
+ * often. Largest relative errors found in sweeps over the floats: ln 1.8e-7, log2 2.3e-7,
+ * ln_1_minus 2.4e-7, exp and sqrt 0.9e-7. */
 #ifndef RLVC_SRC_REAL_H
 #define RLVC_SRC_REAL_H
 
@@ -75,7 +76,7 @@ static inline float rlvc_log2(float x) {
 /* ln(1 - q) for q in [0, 1), accurate relative to itself for small q too. */
 float rlvc_ln_1_minus(float q);
 
-/* x * 2^e, rounded once, for |x| in [1/8, 8] and e <= 120; 0 for e < -200. */
+/* x * 2^e, rounded once, for x in [1/64, 64] and e <= 120; 0 for e < -200. */
 float rlvc_scale(float x, int32_t e);
 
 /* exp(x) for x <= 0; 0 below ln of the least float. */

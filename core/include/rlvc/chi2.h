@@ -14,17 +14,18 @@ extern "C" {
 
 /* The survival function P(X >= statistic) for X chi-square distributed, and its natural logarithm,
  * which stays exact where p underflows to 0. Relative error at most 1e-5 in p where p >= 1e-30, and in
- * log_p everywhere. O(degrees).
- * @param statistic [0, FLT_MAX], finite
+ * log_p wherever it is a normal float; measured, 3e-6 over all degrees and 6e-7 for one degree.
+ * O(degrees).
+ * @param statistic [0, FLT_MAX], finite; below 1e-37 it counts as 0
  * @param degrees   of freedom, [1, RLVC_CHI2_DEGREES_MAX]
  * @param p, log_p  each optional
  * @return RLVC_OK; RLVC_E_RANGE: statistic or degrees. */
 RLVC_API rlvc_status rlvc_chi2_survival(float statistic, uint32_t degrees, float *p, float *log_p);
 
-/* The critical value: the statistic whose survival is p, to 1e-5 relative. O(degrees), at most 64
+/* The critical value: the statistic whose survival is p, to 1e-5 relative. O(degrees), at most 32
  * evaluations of the survival function.
  * @param p [1e-30, 1)
- * @return RLVC_OK; RLVC_E_RANGE: p or degrees. */
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: p or degrees. */
 RLVC_API rlvc_status rlvc_chi2_critical(float p, uint32_t degrees, float *statistic);
 
 /* Pearson's statistic of a 2 x 2 table of counts, without continuity correction; 0 if a row or a
