@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks what a static archive of the core needs and holds: it may call nothing but what every
+compiler expects to find, and have no writable data."""
+
+import argparse
+import subprocess
+import sys
+
+# What a compiler may call on its own, even where there is no C library.
+ALLOWED = {"memcpy", "memmove", "memset", "memcmp", "_GLOBAL_OFFSET_TABLE_"}
+ASSERTS = {"__assert_fail"}
+# The types that nm gives to code, read-only data and undefined names. All else is writable data,
+# common or weak, but for constants that hold addresses: the loader writes these once.
+READ_ONLY = set("tTrRU")
+RELOCATED = ".data.rel.ro"
+
+
+def symbols(archive):
+    """(object file, type, name, section) of each symbol of the archive."""
+    output = subprocess.run(["nm", "--format=sysv", archive],
+                            check=True, stdout=subprocess.PIPE, text=True).stdout
+    where = archive
+    for line in output.splitlines():
+        fields = [field.strip() for field in line.split("|")]
+        if len(fields) == 7 and fields[0] != "Name":
+            yield where, fields[2], fields[0], fields[6]
+        elif line.endswith("]:"):
+            where = line[line.index("[") + 1:-2]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("archive")
+    parser.add_argument("--asserts", action="store_true",
+                        help="the archive was built with its assertions")
+    arguments = parser.parse_args()
+    allowed = ALLOWED | (ASSERTS if arguments.asserts else set())
+
+    table = list(symbols(arguments.archive))
+    defined = {name for _, kind, name, _ in table if kind != "U"}
+    needed = {(where, name) for where, kind, name, _ in table
+              if kind == "U" and name not in defined}
+    faults = [f"{where}: needs {name}" for where, name in sorted(needed) if name not in allowed]
+    faults += [f"{where}: {name}, in {section}, is neither code nor read-only data"
+               for where, kind, name, section in table
+               if kind not in READ_ONLY and not section.startswith(RELOCATED)]
+    functions = sorted(name for _, kind, name, _ in table if kind == "T")
+    faults += [f"{name} is not named rlvc_*" for name in functions if not name.startswith("rlvc_")]
+    if not functions:
+        faults.append("the archive defines no function")
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    names = sorted({name for _, name in needed})
+    print(f"{len(functions)} functions with external linkage; needs {', '.join(names) or 'nothing'}")
+    return bool(faults)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
