@@ -87,13 +87,13 @@ static float odd_base(float x) {
 
 /* p exp(x/2), x >= k. */
 static scaled upper_sum(float x, uint32_t k) {
-    scaled sum = {0.0f, 0};
-    if ((k & 1u) != 0u)
-        sum.m = odd_base(x);
+    float base = (k & 1u) != 0u ? odd_base(x) : 0.0f; /* t(0) is in the series */
+    scaled sum;
+    sum.m = base;
+    sum.e = 0;
     if (k > 1u) {
-        scaled t = term(x, k - 2u); /* >= 1 */
-        sum.m = t.m * upper_series(x, k) + rlvc_scale(sum.m, -t.e);
-        sum.e = t.e;
+        sum = term(x, k - 2u); /* >= 1 */
+        sum.m = sum.m * upper_series(x, k) + rlvc_scale(base, -sum.e);
     }
     return sum;
 }
