@@ -4,39 +4,32 @@
 #include <rlvc/rlvc.h>
 #include <stdio.h>
 
-/* A corridor of eight cells. The agent sees the number of its cell as three bits; to enter cell 5
- * from either side pays 1 and ends the episode. */
-#define PRIZE 5
-
 static int print(void *file, const char *text, size_t bytes) {
     return fwrite(text, 1, bytes, file) != bytes;
 }
 
+/* Cells 0 to 7 in a row, each seen as its number in bits. To reach cell 5 pays 1 and ends an episode. */
 int main(void) {
     static uint64_t memory[RLVC_AGENT_BYTES(2, 500, 8, 1, RLVC_BITS_FEATURE_BYTES, 3) / 8];
     rlvc_domain domain;
     rlvc_config config;
     rlvc_agent *agent;
-    rlvc_choice choice = {0, 0};
+    rlvc_choice choice;
     rlvc_progress progress;
-
     rlvc_bits_domain(3, &domain);
     rlvc_config_default(&config, &domain, 2); /* two actions: 0 goes left, 1 goes right */
     config.capacity = 500;
     config.classes = 8;
     if (rlvc_agent_init(&config, &domain, memory, sizeof memory, &agent) != RLVC_OK)
         return 1;
-
     for (int episode = 0; episode < 200; episode++) {
-        uint8_t cell = (uint8_t)(episode % 2 == 0 ? 0 : 7);
+        uint8_t cell = episode % 2 ? 0 : 7;
         rlvc_begin(agent, &cell);
-        for (int end = RLVC_GOES_ON; end == RLVC_GOES_ON;) {
-            rlvc_act(agent, &choice);
-            cell = (uint8_t)(choice.action == 0 ? cell - (cell > 0) : cell + (cell < 7));
-            end = cell == PRIZE ? RLVC_TERMINATED : RLVC_GOES_ON;
-            rlvc_observe(agent, choice, cell == PRIZE ? 1.0f : 0.0f, &cell, (uint8_t)end);
+        while (cell != 5 && rlvc_act(agent, &choice) == RLVC_OK) {
+            cell = (uint8_t)(choice.action ? cell + (cell < 7) : cell - (cell > 0));
+            rlvc_observe(agent, choice, cell == 5, &cell, cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON);
         }
-        if (episode % 20 == 19)
+        if (episode % 20 == 0)
             rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress);
     }
     return rlvc_print(agent, RLVC_PRINT_TEXT, print, stdout) != RLVC_OK;

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""The checks of tools/check can fail: each rule is broken once, in a core of a few lines."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+CHECKS = pathlib.Path(__file__).resolve().parents[2] / "tools/check"
+LICENCE = "/* SPDX-License-Identifier: MIT */\n"
+
+
+class Tree:
+    """A project with a core of its own and copies of the checks."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        shutil.copytree(CHECKS, folder / "tools/check")
+        for name in ("core/include/rlvc", "core/src", "core/domains"):
+            (folder / name).mkdir(parents=True)
+        self.write("core/include/rlvc/rng.h", "RLVC_API int rlvc_next(int n);\n")
+        self.write("core/src/rng.c", "int rlvc_next(int n) { return n + 1; }\n")
+
+    def write(self, name, text):
+        (self.folder / name).write_text(LICENCE + text, encoding="utf-8")
+
+    def check(self, name, *arguments):
+        """(exit status, all that it printed)"""
+        done = subprocess.run([sys.executable, "-B", self.folder / f"tools/check/{name}.py",
+                               *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True)
+        return done.returncode, done.stdout
+
+    def floors(self, floors):
+        path = self.folder / "tools/check/sources.py"
+        text = path.read_text(encoding="utf-8")
+        begin = text.index("FLOORS = {")
+        end = text.index("}", begin) + 1
+        path.write_text(f"{text[:begin]}FLOORS = {floors!r}{text[end:]}", encoding="utf-8")
+
+    def archive(self):
+        objects = []
+        for source in (self.folder / "core/src").glob("*.c"):
+            objects.append(str(source.with_suffix(".o")))
+            subprocess.run(["gcc", "-O2", "-c", source, "-o", objects[-1]], check=True)
+        subprocess.run(["ar", "rcs", self.folder / "core.a", *objects], check=True)
+        return self.folder / "core.a"
+
+
+@pytest.fixture
+def tree(tmp_path):
+    return Tree(tmp_path)
+
+
+@pytest.mark.parametrize("header, text, fault", [
+    ("tree.h", "int a;\n", None),
+    ("rng.h", '#include "tree.h"\n', 'rng.h:2: floor 0 includes "tree.h" of floor 2'),
+    ("rng.h", '#include "rlvc/rng.h"\n#include <stdint.h>\n', None),
+    ("rng.h", '#include "rlvc/none.h"\n', "is no public header"),
+    ("rng.h", "#include <stdlib.h>\n", "rng.h:2: includes <stdlib.h>"),
+    ("rng.h", "/* a double */\n", None),
+    ("rng.h", "double a;\n", "rng.h:2: a double: double"),
+    ("rng.h", "static const float a = 1.5f, b = 0x1.8p+1f, c = 1e-3f, d = .5f;\n", None),
+    ("rng.h", "static const unsigned a = 0x1e3u;\n", None),
+    ("rng.h", "static const float a = 1.5;\n", "rng.h:2: a double: 1.5"),
+    ("rng.h", "static const float a = 1e-3;\n", "rng.h:2: a double: 1e-3"),
+    ("rng.h", "static const float a = 0x1.8p3;\n", "rng.h:2: a double: 0x1.8p3"),
+    ("other.h", "int a;\n", "has no floor yet"),
+])
+def test_sources(tree, header, text, fault):
+    tree.floors({"rng": 0, "tree": 2})
+    tree.write("core/src/tree.c", '#include "rng.h"\n')
+    tree.write(f"core/src/{header}", text)
+    status, output = tree.check("sources")
+    assert status == (1 if fault else 0), output
+    assert (fault or " 0 faults") in output
+
+
+def test_sources_misses_a_licence_and_a_file(tree):
+    tree.floors({"rng": 0, "gone": 1})
+    (tree.folder / "core/src/rng.c").write_text("\n", encoding="utf-8")
+    status, output = tree.check("sources")
+    assert status == 1
+    assert "rng.c:1: does not begin with its licence" in output
+    assert "FLOORS names gone" in output
+
+
+@pytest.mark.parametrize("text, fault", [
+    ("const int rlvc_table[2] = {1, 2};", None),
+    ("int rlvc_f(void); int (*const rlvc_table[1])(void) = {rlvc_f};", "needs rlvc_f"),
+    ("int rlvc_count;", "rlvc_count, in .bss"),
+    ("int rlvc_f(void) { static int count = 3; return count++; }", "count.0, in .data"),
+    ("void *malloc(unsigned long); void *rlvc_f(void) { return malloc(3); }", "needs malloc"),
+    ("int next(void) { return 1; }", "next is not named rlvc_*"),
+])
+def test_symbols(tree, text, fault):
+    tree.write("core/src/more.c", text)
+    status, output = tree.check("symbols", tree.archive())
+    assert status == (1 if fault else 0), output
+    assert (fault or "needs nothing") in output
+
+
+@pytest.mark.parametrize("text, fault", [
+    ("static int f(int n) { return n < 2 ? n : f(n - 1); }\n"
+     "int rlvc_next(int n) { return f(n); }", "f is recursive"),
+    ("int rlvc_other(int n);\nint rlvc_next(int n) { return n ? rlvc_other(n) : 0; }\n"
+     "int rlvc_other(int n) { return rlvc_next(n - 1); }", "rlvc_next is recursive"),
+    ("int rlvc_next(int n) { volatile char a[n]; a[0] = 1; return a[n - 1]; }",
+     "rlvc_next has a frame of variable size"),
+    ("void *malloc(unsigned long);\nint rlvc_next(int n) { return malloc(8) != 0 ? n : 1; }",
+     "malloc is called"),
+    ("struct d { int (*shout)(int); } d;\nint rlvc_next(int n) { return d.shout(n); }",
+     "calls through a pointer that is no callback"),
+    ("int rlvc_other(int n) { return n; }", "rlvc_next is declared in a public header"),
+])
+def test_stack_faults(tree, text, fault):
+    tree.write("core/src/rng.c", text)
+    status, output = tree.check("stack", "--write")
+    assert status == 1
+    assert fault in output
+
+
+def test_stack_goes_stale(tree):
+    tree.write("core/src/rng.c", "struct d { int (*exhibits)(int); };\n"
+               "int rlvc_next(int n) { volatile char a[64] = {1}; return n + a[n]; }\n")
+    assert tree.check("stack")[0] == 1
+    assert tree.check("stack", "--write") == (0, "")
+    assert tree.check("stack") == (0, "")
+    # The bytes of a larger array, and a callback, show.
+    tree.write("core/src/rng.c", "struct d { int (*exhibits)(int); } *d;\n"
+               "int rlvc_next(int n) { volatile char a[1024] = {1};\n"
+               "    return d->exhibits(n) + a[n]; }\n")
+    assert tree.check("stack")[0] == 1
+    tree.check("stack", "--write")
+    row = next(line for line in (tree.folder / "core/STACK.md").read_text().splitlines()
+               if line.startswith("| `rlvc_next`"))
+    _, _, bytes_, callback, names, _ = row.split("|")
+    assert 1024 < int(bytes_) < 1200 and int(callback) == int(bytes_)
+    assert names.strip() == "exhibits"
+
+
+def test_version(tree):
+    tree.write("CMakeLists.txt", "project(rlvc VERSION 1.2.3 LANGUAGES C)\n")
+    tree.write("core/include/rlvc/rlvc.h", '#define RLVC_VERSION_MAJOR 1\n'
+               '#define RLVC_VERSION_MINOR 2\n#define RLVC_VERSION_PATCH 3\n'
+               '#define RLVC_VERSION "1.2.3"\n')
+    tree.write("CHANGELOG.md", "## [1.2.3] - unreleased\n")
+    assert tree.check("version", "--project", "1.2.3")[0] == 0
+    assert tree.check("version", "--project", "1.2.4")[0] == 1
+    tree.write("CHANGELOG.md", "## [1.3.0] - unreleased\n")
+    assert tree.check("version")[0] == 1
+
+
+def test_readme(tree):
+    (tree.folder / "examples").mkdir()
+    tree.write("examples/01_learn.c", "#include <a.h>\nint main(void) { return 0; }\n")
+    tree.write("README.md", "Text\n\n```c\n#include <b.h>\n```\n\nText\n")
+    assert tree.check("readme")[0] == 1
+    assert tree.check("readme", "--write")[0] == 0
+    assert tree.check("readme")[0] == 0
+    assert "#include <a.h>\nint main(void) { return 0; }\n```\n\nText\n" in \
+        (tree.folder / "README.md").read_text()
