@@ -8,9 +8,9 @@ static int print(void *file, const char *text, size_t bytes) {
     return fwrite(text, 1, bytes, file) != bytes;
 }
 
-/* Cells 0 to 7 in a row, each seen as its number in bits. To reach cell 5 pays 1 and ends an episode. */
+/* Cells 0 to 7 in a row, each seen as its number in 3 bits. Cell 5 pays 1 and ends an episode. */
 int main(void) {
-    static uint64_t memory[RLVC_AGENT_BYTES(2, 500, 8, 1, RLVC_BITS_FEATURE_BYTES, 3) / 8];
+    static uint64_t memory[RLVC_AGENT_BYTES(2, 2000, 64, 1, 2, 3) / 8];
     rlvc_domain domain;
     rlvc_config config;
     rlvc_agent *agent;
@@ -18,8 +18,6 @@ int main(void) {
     rlvc_progress progress;
     rlvc_bits_domain(3, &domain);
     rlvc_config_default(&config, &domain, 2); /* two actions: 0 goes left, 1 goes right */
-    config.capacity = 500;
-    config.classes = 8;
     if (rlvc_agent_init(&config, &domain, memory, sizeof memory, &agent) != RLVC_OK)
         return 1;
     for (int episode = 0; episode < 200; episode++) {
@@ -27,7 +25,8 @@ int main(void) {
         rlvc_begin(agent, &cell);
         while (cell != 5 && rlvc_act(agent, &choice) == RLVC_OK) {
             cell = (uint8_t)(choice.action ? cell + (cell < 7) : cell - (cell > 0));
-            rlvc_observe(agent, choice, cell == 5, &cell, cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON);
+            uint8_t end = cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON;
+            rlvc_observe(agent, choice, cell == 5, &cell, end);
         }
         if (episode % 20 == 0)
             rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress);

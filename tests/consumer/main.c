@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The smallest use of the library that touches each kind of thing it exports: a function without an
- * agent, a ready-made domain, and an agent in a static block of the size that the headers promise. */
+ * agent, a ready-made domain, and an agent in a static block of the size that the headers name. */
 #include <rlvc/rlvc.h>
 #include <stdio.h>
 #include <string.h>
