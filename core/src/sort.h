@@ -1,18 +1,43 @@
 /* SPDX-License-Identifier: MIT */
-/* Sorting samples by key, in place and in slices. */
+/* Sorting samples by key, in place and in slices: a radix sort from the highest differing bit down,
+ * with insertion for short runs. Samples of equal keys come out in an order that depends on nothing
+ * but the input. sort.c tells how. */
 #ifndef RLVC_SRC_SORT_H
 #define RLVC_SRC_SORT_H
+
 #include "rlvc/domain.h"
 
 #define RLVC_SORT_SCRATCH_BYTES 2048u
 
+/* The whole, and a distribution by each of at most four digits. */
+#define RLVC_SORT_LEVELS 5u
+
 typedef struct rlvc_sort {
-    int placeholder;
+    rlvc_sample *sample;
+    uint32_t *scratch;
+    uint32_t level_end[RLVC_SORT_LEVELS]; /* where the range of each level ends, */
+    uint8_t shift[RLVC_SORT_LEVELS];      /* and the lowest bit of the digit it is distributed by */
+    uint8_t level;
+    uint8_t phase; /* what is being done: see sort.c */
     uint8_t done;
+    uint32_t begin;    /* of the run at work; all before it are where they belong */
+    uint32_t at;       /* the next sample of it to look at */
+    uint32_t differ;   /* the bits in which its keys differ, as far as seen */
+    uint32_t bucket;   /* whose places are being filled, */
+    uint32_t unplaced; /* and how many samples of the run are not yet where it wants them */
 } rlvc_sort;
 
-/* scratch: RLVC_SORT_SCRATCH_BYTES, aligned to 8, the cursor's until it is done. */
+/* Begins to sort sample[0 .. count) by ascending key. O(1).
+ * @param count   at most 2^31 - 1
+ * @param scratch RLVC_SORT_SCRATCH_BYTES, aligned to 4, the cursor's until it is done */
 void rlvc_sort_begin(rlvc_sort *sort, rlvc_sample *sample, uint32_t count, void *scratch);
-/* Works for at most `budget` (>= RLVC_BUDGET_MIN) units, one unit a sample touched; returns the units used. */
+
+/* Goes on for at most `budget` (>= RLVC_BUDGET_MIN) units; returns the units used, at least 1
+ * unless done. A sample looked at is charged 1 unit, moved by insertion 1 a place, exchanged 2; the
+ * counters of a digit 32 when they are cleared, 64 when they are summed, 1 each time that one is
+ * looked at. What comes out does not depend on the budgets. About 14 units a sample; at most 48 to
+ * place it by insertion, 4 for each of 4 digits, and for each run of 32 samples or more what its
+ * counters cost. */
 uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget);
+
 #endif
