@@ -94,7 +94,8 @@ class Graph:
         for title, function in sorted(self.functions.items()):
             if self.reaches_itself(title):
                 yield f"{function.place}: {function.name} is recursive"
-            if function.kind != "static":
+            # Pushed arguments make a frame dynamic, but bounded: the bytes are then a bound.
+            if function.kind not in ("static", "dynamic,bounded"):
                 yield f"{function.place}: {function.name} has a frame of variable size"
             for place in sorted(self.indirect[title]):
                 if not INDIRECT.search(source_line(place)):
@@ -135,8 +136,8 @@ def table(plain, optimised, compiler):
         f"x86-64, gcc {compiler}, `-O2`; bytes, return addresses included. Written by",
         "`tools/check/stack.py --write`; a test fails when it is stale. No function of the core is",
         "recursive or has a frame of variable size.\n",
-        "*Callback at* is how much of the stack is in use when the deepest callback is called: what",
-        "the callback needs comes on top of that, and the sum may be more than the *bytes*.\n",
+        "*Callback at* is how much of the stack is in use when the deepest callback is called. What",
+        "the callback needs comes on top of that; the sum may be more than the *bytes*.\n",
         "| public function | bytes | callback at | callbacks it may call |",
         "|---|--:|--:|---|")
     for name in public_functions():
@@ -149,7 +150,8 @@ def table(plain, optimised, compiler):
         if function.place.startswith(str(ROOT / "core/domains")) and ":" in title \
                 and title not in called:
             yield f"| `{function.name}` | {optimised.worst(title)[0]} |"
-    yield from ("\nWhere the core calls through a pointer:\n", "| function | callback |", "|---|---|")
+    yield from ("\nWhere the core calls through a pointer:\n", "| function | callback |",
+                "|---|---|")
     for title, function in sorted(plain.functions.items(), key=lambda item: item[1].name):
         names = sorted({INDIRECT.search(source_line(place))[1] for place in plain.indirect[title]})
         if names:

@@ -52,7 +52,7 @@ def main():
     for fault in faults:
         print(fault, file=sys.stderr)
     names = sorted({name for _, name in needed})
-    print(f"{len(functions)} functions with external linkage; needs {', '.join(names) or 'nothing'}")
+    print(f"{len(functions)} functions; needs {', '.join(names) or 'nothing'}")
     return bool(faults)
 
 
