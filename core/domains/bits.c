@@ -58,9 +58,8 @@ static inline uint64_t load_window(const unsigned char *percept, uint32_t bytes,
         return load_8(byte) >> shift | ninth << 8 << (56u - shift);
     }
     uint64_t window = room >= 4u ? load_4(byte) : 0u;
-    for (uint32_t i = room & 4u; i < room; i++) {
+    for (uint32_t i = room & 4u; i < room; i++)
         window |= (uint64_t)byte[i] << (8u * i);
-    }
     return window >> shift;
 }
 
@@ -88,11 +87,9 @@ static void transpose(uint64_t row[WORD_BITS], uint32_t wanted) {
 
 static int consecutive(const unsigned char *feature, uint32_t m) {
     const uint32_t first = rlvc_bits_feature(feature);
-    for (uint32_t j = 1; j < m; j++) {
-        if (rlvc_bits_feature(feature + (size_t)j * RLVC_BITS_FEATURE_BYTES) != first + j) {
+    for (uint32_t j = 1; j < m; j++)
+        if (rlvc_bits_feature(feature + (size_t)j * RLVC_BITS_FEATURE_BYTES) != first + j)
             return 0;
-        }
-    }
     return 1;
 }
 
@@ -117,9 +114,8 @@ static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32
             }
         }
     }
-    for (uint32_t j = 0; j < m; j++) {
+    for (uint32_t j = 0; j < m; j++)
         columns[j] = row[j];
-    }
     return 0;
 }
 
@@ -129,12 +125,10 @@ static int name(void *ctx, const void *feature, char *text, uint32_t room) {
     uint32_t power = 1;
     uint32_t n = 0;
     (void)ctx;
-    while (bit / power >= 10u) {
+    while (bit / power >= 10u)
         power *= 10u;
-    }
-    for (; *word != '\0' && n + 1u < room; n++) {
+    for (; *word != '\0' && n + 1u < room; n++)
         text[n] = *word++;
-    }
     for (; power > 0 && n + 1u < room; n++) {
         text[n] = (char)('0' + bit / power % 10u);
         power /= 10u;
@@ -144,12 +138,10 @@ static int name(void *ctx, const void *feature, char *text, uint32_t room) {
 }
 
 rlvc_status rlvc_bits_domain(uint32_t bits, rlvc_domain *domain) {
-    if (domain == NULL) {
+    if (domain == NULL)
         return RLVC_E_NULL;
-    }
-    if (bits == 0 || bits > RLVC_BITS_MAX) {
+    if (bits == 0 || bits > RLVC_BITS_MAX)
         return RLVC_E_RANGE;
-    }
     const rlvc_domain made = {
         .ctx = (void *)(uintptr_t)bits,
         .percept_bytes = RLVC_BITS_PERCEPT_BYTES(bits),

@@ -101,18 +101,15 @@ static int64_t deviation(const rlvc_scan *scan, uint32_t x, uint32_t y) {
 static inline int surely_below(const rlvc_scan *scan, int64_t n, uint32_t x, uint32_t y) {
     float size = (float)n;
     float square = size * size;
-    if (scan->score_kind == RLVC_SCORE_GINI) {
+    if (scan->score_kind == RLVC_SCORE_GINI)
         return square <= scan->wide;
-    }
     uint32_t below = x + y;
     uint32_t above = scan->count - below;
     float rows = (float)((int64_t)below * above);
-    if (square <= scan->wide * rows) {
+    if (square <= scan->wide * rows)
         return 1;
-    }
-    if (scan->score_kind == RLVC_SCORE_CHI2 || square > scan->narrow * rows) {
+    if (scan->score_kind == RLVC_SCORE_CHI2 || square > scan->narrow * rows)
         return 0;
-    }
     uint32_t present = scan->best.present;
     int64_t smallest = (int64_t)least(below, above) * least(present, scan->count - present);
     return 4 * (n < 0 ? -n : n) <= smallest;
@@ -168,14 +165,12 @@ static uint32_t count_step(rlvc_scan *scan, uint32_t budget) {
     uint32_t chunk = scan->word / chunk_words(scan);
     uint32_t begin = scan->word;
     uint32_t end = least(words, (chunk + 1u) * chunk_words(scan));
-    if (end - begin > budget / RLVC_SCAN_WORD_UNITS) {
+    if (end - begin > budget / RLVC_SCAN_WORD_UNITS)
         end = begin + budget / RLVC_SCAN_WORD_UNITS;
-    }
     uint32_t present = 0;
     uint32_t word = begin;
-    for (; end - word >= BLOCK_WORDS; word += BLOCK_WORDS) {
+    for (; end - word >= BLOCK_WORDS; word += BLOCK_WORDS)
         present += rlvc_ones(scan->column + word, BLOCK_WORDS);
-    }
     present += rlvc_ones(scan->column + word, end - word);
     scan->chunk_present[chunk] += present;
     scan->best.present += present;
@@ -217,9 +212,8 @@ static uint32_t probe_step(rlvc_scan *scan) {
 
 static int no_cuts(const uint64_t *cuts, uint32_t words) {
     uint64_t any = 0;
-    for (uint32_t i = 0; i < words; i++) {
+    for (uint32_t i = 0; i < words; i++)
         any |= cuts[i];
-    }
     return any == 0;
 }
 
@@ -236,9 +230,8 @@ static int pass_words(rlvc_scan *scan, uint32_t end, uint32_t present, uint32_t 
     uint32_t samples = least(scan->count, end * 64u) - scan->word * 64u;
     uint32_t x = scan->present;
     uint32_t y = scan->word * 64u - x;
-    if (!pass_over(scan, x, y, x + present, y + (samples - present), work)) {
+    if (!pass_over(scan, x, y, x + present, y + (samples - present), work))
         return 0;
-    }
     move_to(scan, end, present);
     return 1;
 }
@@ -247,9 +240,8 @@ static uint32_t chunk_step(rlvc_scan *scan) {
     uint32_t present = scan->chunk_present[scan->word / chunk_words(scan)];
     uint32_t end = least(words_of(scan), scan->word + chunk_words(scan));
     uint32_t work = 0;
-    if (!pass_words(scan, end, present, &work)) {
+    if (!pass_words(scan, end, present, &work))
         scan->phase = BLOCK;
-    }
     return work;
 }
 
@@ -260,9 +252,8 @@ static uint32_t block_step(rlvc_scan *scan) {
     uint32_t present = rlvc_ones(scan->column + scan->word, words);
     uint32_t work = words * RLVC_SCAN_WORD_UNITS;
     if (pass_words(scan, end, present, &work)) {
-        if (scan->level < BLOCK_LEVEL && end % (2u * size) == 0) {
+        if (scan->level < BLOCK_LEVEL && end % (2u * size) == 0)
             scan->level++;
-        }
     } else if (no_cuts(scan->cuts + scan->word, words)) {
         move_to(scan, end, present);
     } else if (scan->level > 0) {
@@ -296,27 +287,24 @@ static uint32_t bits_step(rlvc_scan *scan) {
         bit++;
     }
     scan->bit = bit;
-    if (bit == 64u) {
+    if (bit == 64u)
         move_to(scan, scan->word + 1u, 0);
-    }
     return work;
 }
 
 uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget) {
     uint32_t left = budget;
     RLVC_ASSERT(budget >= RLVC_BUDGET_MIN);
-    while (!scan->done && left >= ACTION_MAX) {
-        if (scan->phase == COUNT) {
+    while (!scan->done && left >= ACTION_MAX)
+        if (scan->phase == COUNT)
             left -= count_step(scan, left);
-        } else if (scan->phase == PROBE) {
+        else if (scan->phase == PROBE)
             left -= probe_step(scan);
-        } else if (scan->phase == CHUNK) {
+        else if (scan->phase == CHUNK)
             left -= chunk_step(scan);
-        } else if (scan->phase == BLOCK) {
+        else if (scan->phase == BLOCK)
             left -= block_step(scan);
-        } else {
+        else
             left -= bits_step(scan);
-        }
-    }
     return budget - left;
 }

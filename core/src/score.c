@@ -36,9 +36,8 @@ static float cell_gain(int64_t p, int64_t q) {
                  z * (1.0f / 7.0f + z * (1.0f / 9.0f + z * (1.0f / 11.0f + z * (1.0f / 13.0f)))));
         return difference * s + 2.0f * (float)p * (s * z * odd);
     }
-    if (p == 0) {
+    if (p == 0)
         return (float)q;
-    }
     return (float)p * rlvc_ln((float)p / (float)q) - difference;
 }
 
@@ -55,9 +54,8 @@ float rlvc_score(uint8_t kind, uint32_t present_below, uint32_t absent_below,
     int64_t total = r1 + r2;
     RLVC_ASSERT(total <= INT32_MAX);
     RLVC_ASSERT(kind <= RLVC_SCORE_CHI2);
-    if (r1 == 0 || r2 == 0 || c1 == 0 || c2 == 0) {
+    if (r1 == 0 || r2 == 0 || c1 == 0 || c2 == 0)
         return 0.0f;
-    }
     if (kind == RLVC_SCORE_GAIN) {
         float diagonal = cell_gain(total * a, r1 * c1) + cell_gain(total * d, r2 * c2);
         float other = cell_gain(total * b, r1 * c2) + cell_gain(total * c, r2 * c1);

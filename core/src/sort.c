@@ -60,9 +60,8 @@ static void begin_run(rlvc_sort *sort, uint32_t at) {
 
 /* Leaves the levels that end where the run at work begins. */
 static void leave_levels(rlvc_sort *sort) {
-    while (sort->level > 0 && sort->begin == sort->level_end[sort->level]) {
+    while (sort->level > 0 && sort->begin == sort->level_end[sort->level])
         sort->level--;
-    }
     sort->done = sort->begin == sort->level_end[0];
 }
 
@@ -95,9 +94,8 @@ static uint32_t insert_step(rlvc_sort *sort, uint32_t budget) {
         }
         sort->differ |= differ;
         uint32_t place = at;
-        for (; place > sort->begin && sample[place - 1u].key > moved.key; place--) {
+        for (; place > sort->begin && sample[place - 1u].key > moved.key; place--)
             sample[place] = sample[place - 1u];
-        }
         sample[place] = moved;
         work += 1u + (at - place);
         at++;
@@ -113,9 +111,8 @@ static uint32_t insert_step(rlvc_sort *sort, uint32_t budget) {
 /* The lowest bit of the digit that has the highest bit of `differ` at its top. */
 static uint8_t digit_shift(uint32_t differ) {
     uint8_t shift = 0;
-    while (differ >> shift >= BUCKETS) {
+    while (differ >> shift >= BUCKETS)
         shift++;
-    }
     return shift;
 }
 
@@ -128,14 +125,12 @@ static uint32_t find_step(rlvc_sort *sort, uint32_t budget) {
     const uint32_t stop = from + least(budget - CLEAR_UNITS, sort->level_end[sort->level] - from);
     uint32_t differ = sort->differ;
     uint32_t at = from;
-    for (; at < stop && ((sample[at].key ^ first) & upper) == 0; at++) {
+    for (; at < stop && ((sample[at].key ^ first) & upper) == 0; at++)
         differ |= sample[at].key ^ first;
-    }
     sort->at = at;
     sort->differ = differ;
-    if (at == stop && at < sort->level_end[sort->level]) {
+    if (at == stop && at < sort->level_end[sort->level])
         return at - from;
-    }
     if (differ == 0) {
         begin_run(sort, at);
         leave_levels(sort);
@@ -146,9 +141,8 @@ static uint32_t find_step(rlvc_sort *sort, uint32_t budget) {
     sort->shift[sort->level] = digit_shift(differ);
     sort->at = sort->begin;
     sort->phase = COUNT;
-    for (uint32_t i = 0; i < BUCKETS; i++) {
+    for (uint32_t i = 0; i < BUCKETS; i++)
         end_of(sort)[i] = 0;
-    }
     return at - from + CLEAR_UNITS;
 }
 
@@ -162,13 +156,11 @@ static uint32_t count_step(rlvc_sort *sort, uint32_t budget) {
     const uint32_t shift = sort->shift[sort->level];
     const uint32_t from = sort->at;
     const uint32_t stop = from + least(budget, sort->level_end[sort->level] - from);
-    for (uint32_t i = from; i < stop; i++) {
+    for (uint32_t i = from; i < stop; i++)
         end[digit_of(sort->sample[i].key, shift)]++;
-    }
     sort->at = stop;
-    if (stop < sort->level_end[sort->level] || budget - (stop - from) < SUM_UNITS) {
+    if (stop < sort->level_end[sort->level] || budget - (stop - from) < SUM_UNITS)
         return stop - from;
-    }
     uint32_t sum = sort->begin;
     for (uint32_t i = 0; i < BUCKETS; i++) {
         next_of(sort)[i] = sum;
@@ -207,25 +199,22 @@ static uint32_t place_step(rlvc_sort *sort, uint32_t budget) {
             sort->at = next[sort->bucket];
         }
     }
-    if (sort->unplaced == 0) {
+    if (sort->unplaced == 0)
         begin_run(sort, sort->begin);
-    }
     return budget - left;
 }
 
 uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget) {
     uint32_t left = budget;
     RLVC_ASSERT(budget >= RLVC_BUDGET_MIN);
-    while (!sort->done && left >= ACTION_MAX) {
-        if (sort->phase == INSERT) {
+    while (!sort->done && left >= ACTION_MAX)
+        if (sort->phase == INSERT)
             left -= insert_step(sort, left);
-        } else if (sort->phase == FIND) {
+        else if (sort->phase == FIND)
             left -= find_step(sort, left);
-        } else if (sort->phase == COUNT) {
+        else if (sort->phase == COUNT)
             left -= count_step(sort, left);
-        } else {
+        else
             left -= place_step(sort, left);
-        }
-    }
     return budget - left;
 }
