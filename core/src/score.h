@@ -25,8 +25,9 @@
 
 #include <stdint.h>
 
-/* The computed score is within this of the exact one, relatively: 128 units in the last place, about
- * twice the sum of all the roundings where they weigh most (a cell with P / Q near 1.7, see score.c). */
+/* The computed score is within this of the exact one, relatively: 128 units in the last place,
+ * about twice the sum of all the roundings where they weigh most (a cell with P / Q near 1.7, see
+ * score.c). */
 #define RLVC_SCORE_ERROR (1.0f / 131072.0f)
 
 /* The score of a table, 0 or more; 0 if a row or a column is empty. O(1).

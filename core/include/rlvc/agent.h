@@ -124,8 +124,8 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
 #define RLVC_VALUES_BYTES(classes, actions)                                                        \
     (RLVC_ROUND_UP_8((size_t)(classes) * (actions) * 4u) * 3u +                                    \
      RLVC_ROUND_UP_8(((size_t)(classes) * (actions) + 1u) * 4u) +                                  \
-     RLVC_ROUND_UP_8((size_t)(classes) * 4u) * 2u + RLVC_ROUND_UP_8((size_t)(classes) * 2u) +      \
-     RLVC_ROUND_UP_8(classes))
+     RLVC_ROUND_UP_8((size_t)(classes) * 4u) + RLVC_ROUND_UP_8((size_t)(classes) * 2u) +           \
+     RLVC_ROUND_UP_8(classes) * 2u)
 /* and the samples, cutpoints and bit columns of the search for a split. */
 #define RLVC_SEARCH_BYTES(capacity, feature_bytes, features_at_once)                               \
     (RLVC_ROUND_UP_8((size_t)(capacity) * 8u) +                                                    \
@@ -134,8 +134,8 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
      RLVC_ROUND_UP_8((size_t)(features_at_once) * (feature_bytes)) +                               \
      RLVC_ROUND_UP_8(feature_bytes) * 2u)
 #define RLVC_SEARCH_COLUMN_BYTES(capacity, features_at_once)                                       \
-    ((((size_t)(capacity) + 63u) / 64u * (features_at_once) * 8u) > 2048u                          \
-         ? (((size_t)(capacity) + 63u) / 64u * (features_at_once) * 8u)                            \
+    (((((size_t)(capacity) + 63u) / 64u | 1u) * (features_at_once) * 8u) > 2048u                   \
+         ? ((((size_t)(capacity) + 63u) / 64u | 1u) * (features_at_once) * 8u)                     \
          : 2048u)
 
 /* Makes a new agent in the caller's block: one class that holds every percept, no interaction, step
@@ -214,7 +214,7 @@ RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progres
  * step is under way the actions are those of the last solution. O(depth) calls of exhibits().
  * @param class_id, action each optional
  * @return RLVC_OK; RLVC_E_CALLBACK: *class_id and *action unchanged. */
-RLVC_API rlvc_status rlvc_predict(const rlvc_agent *agent, const void *percept, uint32_t *class_id,
+RLVC_API rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
                                   uint32_t *action);
 
 typedef struct rlvc_statistics {
@@ -272,7 +272,7 @@ typedef int (*rlvc_write)(void *ctx, const char *text, size_t bytes);
 /* Prints the tree with the action, value and numbers of each class. O(nodes * depth).
  * @return RLVC_OK; RLVC_E_RANGE: format; RLVC_E_CALLBACK: a write, or the domain's name(), failed; the
  *         text ends where it did. */
-RLVC_API rlvc_status rlvc_print(const rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
+RLVC_API rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
 
 /* Checks every invariant of the agent's memory (SPEC.md lists them): for tests, and for whoever
  * suspects his memory. O(capacity + classes * actions).

@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: MIT */
+/* A learning step (section 4.2.1, part 3), in slices.
+ *
+ * A step is a row of rounds. Each gives every percept its class (LABEL), finds the target of every sample
+ * (GROUP) and examines each class once (SEARCH): the best split over its actions is carried out at the end
+ * of the class, and the next round examines both children. When a round splits nothing, no class is
+ * aliased any more and the step ends (FINISH): the policy is made greedy, k incremented.
+ *
+ *     residual:  LABEL  MODEL SOLVE  GROUP SEARCH    each round; the targets need the values of its classes
+ *     returns:   LABEL  GROUP SEARCH                 each round; the targets are facts
+ *                MODEL SOLVE                         once, after the last
+ *
+ * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing.
+ *
+ * All that a phase knows lies in the learner and in the tables, so that a budget may end anywhere between
+ * two elementary steps, and what comes out does not depend on where. */
+#include "rlvc/agent.h"
+
+#include "real.h"
+#include "state.h"
+#include <string.h>
+
+enum { IDLE, LABEL, GROUP, SEARCH, MODEL, SOLVE, FINISH };
+
+static uint32_t pairs(const rlvc_agent *agent) {
+    return agent->tree.classes * agent->config.actions;
+}
+
+static rlvc_aliasing aliasing(const rlvc_agent *agent, uint8_t kind) {
+    rlvc_aliasing made;
+    made.returns.replay = &agent->replay;
+    made.returns.end = agent->learner.end;
+    made.returns.horizon = agent->step;
+    made.returns.discount = agent->config.discount;
+    made.returns.continuing = agent->config.continuing;
+    made.values = &agent->values;
+    made.gap = kind == RLVC_CRITERION_RESIDUAL ? 2.0f * agent->config.tolerance : 0.0f;
+    made.kind = kind;
+    return made;
+}
+
+static void enter(rlvc_agent *agent, uint8_t phase) {
+    rlvc_learner *learner = &agent->learner;
+    learner->phase = phase;
+    learner->at = 0;
+    learner->node = 0;
+    if (phase == LABEL) {
+        learner->rounds++;
+    } else if (phase == GROUP) {
+        rlvc_grouping_begin(&learner->work.grouping, pairs(agent));
+    } else if (phase == SEARCH) {
+        learner->classes = agent->tree.classes;
+        learner->made = 0;
+        learner->action = 0;
+        learner->found = 0;
+        learner->searching = 0;
+    } else if (phase == MODEL) {
+        rlvc_model_begin(&learner->work.model, pairs(agent));
+    } else if (phase == SOLVE) {
+        rlvc_solver_begin(&learner->work.solver, agent->config.solver);
+    }
+}
+
+static void begin_step(rlvc_agent *agent) {
+    agent->learner.end = rlvc_replay_freeze(&agent->replay);
+    agent->learner.rounds = 0;
+    agent->learner.splits = 0;
+    enter(agent, LABEL);
+}
+
+/* ------------------------------------------------------------------ LABEL */
+
+/* One test of the percept at position `at`: the whole way down the tree if it is new, else only the split
+ * that the last round made of its class, if any. A unit each. */
+static rlvc_status step_label(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_replay *replay = &agent->replay;
+    if (learner->at == replay->frozen) {
+        int model_first = agent->config.criterion == RLVC_CRITERION_RESIDUAL &&
+                          !rlvc_is_incremental(&agent->config);
+        enter(agent, model_first ? MODEL : GROUP);
+        return RLVC_OK;
+    }
+    uint32_t slot = rlvc_replay_slot(replay, learner->at);
+    uint16_t label = replay->label[slot];
+    const void *percept = rlvc_replay_percept(replay, slot);
+    if (label == RLVC_NO_CLASS) {
+        if (rlvc_tree_is_leaf(&agent->tree, learner->node)) {
+            replay->label[slot] = (uint16_t)rlvc_tree_class(&agent->tree, learner->node);
+            learner->node = 0;
+            learner->at++;
+            return RLVC_OK;
+        }
+        return rlvc_tree_descend(&agent->tree, &agent->domain, percept, &learner->node);
+    }
+    if (agent->pending[label] != 0) {
+        uint32_t split = agent->pending[label] - 1u;
+        uint32_t node = agent->tree.split[split].node;
+        rlvc_status status = rlvc_tree_descend(&agent->tree, &agent->domain, percept, &node);
+        if (status != RLVC_OK)
+            return status;
+        if (node == 2u * split + 2u)
+            replay->label[slot] = agent->pending[label];
+    }
+    learner->at++;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ SEARCH */
+
+/* Carries out the best split of the class under examination, if it is significant. */
+static void decide(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    if (!learner->found || !(learner->best.log_p < rlvc_ln(agent->config.alpha)))
+        return;
+    if (agent->tree.classes == agent->tree.classes_max) {
+        agent->refused++;
+        return;
+    }
+    uint32_t made = agent->tree.classes;
+    rlvc_tree_grow(&agent->tree, &learner->best, agent->space.chosen);
+    rlvc_values_inherit(&agent->values, made, learner->at);
+    agent->pending[learner->at] = (uint16_t)made;
+    agent->pending[made] = 0;
+    agent->last_split = agent->step;
+    learner->made++;
+    learner->splits++;
+}
+
+/* Takes the result of the search in one action; of equals the lower action wins. */
+static void take_result(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_split split;
+    if (!rlvc_search_result(&learner->work.search, &split))
+        return;
+    if (learner->found && !(split.log_p < learner->best.log_p))
+        return;
+    split.class_id = learner->at;
+    split.step = agent->step;
+    split.action = learner->action;
+    learner->best = split;
+    learner->found = 1;
+    memcpy(agent->space.chosen, agent->space.winner, agent->space.feature_bytes);
+}
+
+static void end_round(rlvc_agent *agent) {
+    if (agent->learner.made > 0)
+        enter(agent, LABEL);
+    else if (agent->config.criterion == RLVC_CRITERION_RETURNS &&
+             !rlvc_is_incremental(&agent->config))
+        enter(agent, MODEL);
+    else
+        enter(agent, FINISH);
+}
+
+/* Opens the next class or action. A unit each. */
+static void open_search(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    if (learner->at == learner->classes) {
+        end_round(agent);
+        return;
+    }
+    if (learner->action == agent->config.actions) {
+        decide(agent);
+        learner->found = 0;
+        learner->action = 0;
+        learner->at++;
+        return;
+    }
+    if (learner->action == 0)
+        agent->pending[learner->at] = 0;
+    size_t pair = rlvc_values_pair(&agent->values, learner->at, learner->action);
+    uint32_t begin = agent->values.first[pair], end = agent->values.first[pair + 1u];
+    if (end - begin < agent->config.min_samples) {
+        learner->action++;
+        return;
+    }
+    rlvc_search_begin(&learner->work.search, &agent->space, &agent->replay, begin, end);
+    learner->searching = 1;
+}
+
+static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    rlvc_learner *learner = &agent->learner;
+    if (!learner->searching) {
+        open_search(agent);
+        *used = 1;
+        return RLVC_OK;
+    }
+    rlvc_aliasing criterion = aliasing(agent, agent->config.criterion);
+    rlvc_status status = rlvc_search_step(&learner->work.search, &agent->space, &criterion,
+                                          &agent->domain, agent->config.score, budget, used);
+    if (status == RLVC_OK && learner->work.search.done) {
+        take_result(agent);
+        learner->searching = 0;
+        learner->action++;
+    }
+    return status;
+}
+
+/* ------------------------------------------------------------------ the other phases */
+
+static uint32_t step_group(rlvc_agent *agent, uint32_t budget) {
+    rlvc_grouping *grouping = &agent->learner.work.grouping;
+    rlvc_aliasing criterion = aliasing(agent, agent->config.criterion);
+    uint32_t used = rlvc_grouping_step(grouping, &criterion, agent->space.sample,
+                                       agent->values.first, budget);
+    if (grouping->done)
+        enter(agent, SEARCH);
+    return used;
+}
+
+static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
+    rlvc_model *model = &agent->learner.work.model;
+    rlvc_aliasing successor = aliasing(agent, RLVC_KEY_SUCCESSOR);
+    uint32_t used = rlvc_model_step(model, &successor, &agent->values, agent->space.sample,
+                                    agent->space.columns, budget);
+    if (model->done)
+        enter(agent, SOLVE);
+    return used;
+}
+
+static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
+    rlvc_solver *solver = &agent->learner.work.solver;
+    rlvc_solving solving = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
+                            agent->config.discount, agent->config.tolerance};
+    uint32_t used = rlvc_solver_step(solver, &solving, &agent->values, budget);
+    if (solver->done) {
+        agent->sweeps = solver->sweeps;
+        agent->residual = solver->residual;
+        enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? FINISH : GROUP);
+    }
+    return used;
+}
+
+/* Makes the policy of class `at` greedy; after the last class ends the step. A unit each. */
+static void step_finish(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    if (learner->at < agent->tree.classes) {
+        agent->values.policy[learner->at] =
+            (uint8_t)rlvc_values_greedy(&agent->values, learner->at);
+        learner->at++;
+        return;
+    }
+    /* The next step of the returns criterion looks at longer windows under another policy: the
+     * database must be collected afresh (section 4.2.1). */
+    if (agent->config.criterion == RLVC_CRITERION_RETURNS)
+        rlvc_replay_clear(&agent->replay);
+    agent->replay.frozen = 0;
+    agent->run = 0;
+    agent->step++;
+    learner->phase = IDLE;
+}
+
+static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    rlvc_status status = RLVC_OK;
+    *used = 1;
+    switch (agent->learner.phase) {
+    case LABEL:
+        status = step_label(agent);
+        break;
+    case GROUP:
+        *used = step_group(agent, budget);
+        break;
+    case SEARCH:
+        status = step_search(agent, budget, used);
+        break;
+    case MODEL:
+        *used = step_model(agent, budget);
+        break;
+    case SOLVE:
+        *used = step_solve(agent, budget);
+        break;
+    default:
+        step_finish(agent);
+        break;
+    }
+    return status;
+}
+
+rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
+    if (!agent || !progress)
+        return RLVC_E_NULL;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    if (budget < RLVC_BUDGET_MIN)
+        return RLVC_E_RANGE;
+    rlvc_status status = RLVC_OK;
+    uint64_t work = 0;
+    int unbounded = budget == RLVC_BUDGET_UNBOUNDED;
+    if (agent->learner.phase == IDLE)
+        begin_step(agent);
+    agent->busy = 1;
+    /* Every phase gets on with RLVC_BUDGET_MIN units, and none promises to with fewer. */
+    while (status == RLVC_OK && agent->learner.phase != IDLE &&
+           (unbounded || budget - work >= RLVC_BUDGET_MIN)) {
+        uint32_t used = 0;
+        status = step_phase(agent, unbounded ? budget : (uint32_t)(budget - work), &used);
+        work += used;
+    }
+    agent->busy = 0;
+    memset(progress, 0, sizeof *progress);
+    progress->work = work < UINT32_MAX ? (uint32_t)work : UINT32_MAX;
+    progress->rounds = agent->learner.rounds;
+    progress->splits = agent->learner.splits;
+    progress->done = agent->learner.phase == IDLE;
+    return status;
+}

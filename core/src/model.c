@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/* The sparse class-level model: see model.h. */
+#include "model.h"
+
+enum { GROUP, OPEN, REWARD, SORT, COUNT, DONE };
+
+void rlvc_model_begin(rlvc_model *model, uint32_t pairs) {
+    rlvc_grouping_begin(&model->grouping, pairs);
+    model->pair = 0;
+    model->end = 0;
+    model->packed = 0;
+    model->phase = GROUP;
+    model->done = 0;
+}
+
+/* Takes up the next pair. Its end must be read before first[] is overwritten with packed places, and
+ * its begin is the end of the one before. */
+static void open_pair(rlvc_model *model, rlvc_values *values) {
+    if (model->pair == model->grouping.pairs) {
+        values->first[model->pair] = model->packed;
+        model->phase = DONE;
+        model->done = 1;
+        return;
+    }
+    model->begin = model->end;
+    model->end = values->first[model->pair + 1u];
+    values->first[model->pair] = model->packed;
+    values->tried[model->pair] = model->end - model->begin;
+    model->at = model->begin;
+    rlvc_sum_clear(&model->sum);
+    model->phase = REWARD;
+}
+
+static void add_reward(rlvc_model *model, const rlvc_replay *replay, rlvc_values *values,
+                       rlvc_sample *sample, void *scratch) {
+    if (model->at < model->end) {
+        rlvc_sum_add(&model->sum, replay->reward[sample[model->at++].slot], 1);
+        return;
+    }
+    values->reward[model->pair] = rlvc_sum_mean(&model->sum);
+    model->at = model->begin;
+    rlvc_sort_begin(&model->sort, sample + model->begin, model->end - model->begin, scratch);
+    model->phase = SORT;
+}
+
+/* Counts a sample to the transition before it, if that leads to the same class. Packing goes on in
+ * place, since there are never more transitions than samples. */
+static void count_sample(rlvc_model *model, const rlvc_values *values, rlvc_sample *sample) {
+    if (model->at == model->end) {
+        model->pair++;
+        model->phase = OPEN;
+        return;
+    }
+    uint32_t next = sample[model->at++].key;
+    if (model->packed > values->first[model->pair] && sample[model->packed - 1u].key == next) {
+        sample[model->packed - 1u].slot++;
+        return;
+    }
+    sample[model->packed].key = next;
+    sample[model->packed++].slot = 1;
+}
+
+uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
+                         rlvc_sample *sample, void *scratch, uint32_t budget) {
+    uint32_t used = 0;
+    while (budget - used >= RLVC_BUDGET_MIN && !model->done) {
+        switch (model->phase) {
+        case GROUP:
+            used += rlvc_grouping_step(&model->grouping, aliasing, sample, values->first,
+                                       budget - used);
+            model->phase = model->grouping.done ? OPEN : GROUP;
+            break;
+        case OPEN:
+            open_pair(model, values);
+            used++;
+            break;
+        case REWARD:
+            add_reward(model, aliasing->returns.replay, values, sample, scratch);
+            used++;
+            break;
+        case SORT:
+            used += rlvc_sort_step(&model->sort, budget - used);
+            model->phase = model->sort.done ? COUNT : SORT;
+            break;
+        default:
+            count_sample(model, values, sample);
+            used++;
+            break;
+        }
+    }
+    return used;
+}

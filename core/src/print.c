@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+/* The tree as text, DOT and JSON (section 4.3): one walk in pre-order, without recursion. */
+#include "rlvc/agent.h"
+
+#include "state.h"
+#include "text.h"
+
+typedef struct printer {
+    rlvc_text text;
+    rlvc_agent *agent;
+} printer;
+
+static void string(printer *p, const char *s) {
+    rlvc_text_string(&p->text, s);
+}
+
+static void number(printer *p, const char *before, uint32_t n) {
+    rlvc_text_string(&p->text, before);
+    rlvc_text_uint(&p->text, n);
+}
+
+static void real(printer *p, const char *before, float x, uint32_t digits) {
+    rlvc_text_string(&p->text, before);
+    rlvc_text_float(&p->text, x, digits);
+}
+
+/* The name of the feature that an internal node tests. */
+static void name(printer *p, uint32_t node) {
+    char text[RLVC_NAME_BYTES];
+    const rlvc_domain *domain = &p->agent->domain;
+    const void *feature =
+        rlvc_tree_feature(&p->agent->tree, rlvc_tree_split_of(&p->agent->tree, node));
+    text[0] = '\0';
+    if (p->text.status == RLVC_OK && domain->name(domain->ctx, feature, text, sizeof text) != 0)
+        p->text.status = RLVC_E_CALLBACK;
+    text[sizeof text - 1u] = '\0';
+    string(p, text);
+}
+
+/* Interactions behind the values of a class. */
+static uint32_t tried(const rlvc_values *values, uint32_t class_id) {
+    uint32_t sum = 0;
+    for (uint32_t a = 0; a < values->actions; a++)
+        sum += values->tried[rlvc_values_pair(values, class_id, a)];
+    return sum;
+}
+
+/* ------------------------------------------------------------------ text */
+
+static void print_text(printer *p, uint32_t node) {
+    const rlvc_tree *tree = &p->agent->tree;
+    const rlvc_values *values = &p->agent->values;
+    for (uint32_t depth = rlvc_tree_depth(tree, node); depth > 0; depth--)
+        string(p, "  ");
+    if (node > 0)
+        string(p, node % 2u == 0 ? "yes: " : "no: ");
+    if (!rlvc_tree_is_leaf(tree, node)) {
+        name(p, node);
+        string(p, "?\n");
+        return;
+    }
+    uint32_t c = rlvc_tree_class(tree, node);
+    number(p, "class ", c);
+    number(p, ": action ", values->policy[c]);
+    real(p, ", value ", values->value[c], 6);
+    number(p, ", ", tried(values, c));
+    string(p, " interactions\n");
+}
+
+/* ------------------------------------------------------------------ DOT */
+
+static void print_dot(printer *p, uint32_t node) {
+    const rlvc_tree *tree = &p->agent->tree;
+    const rlvc_values *values = &p->agent->values;
+    number(p, "  n", node);
+    if (rlvc_tree_is_leaf(tree, node)) {
+        uint32_t c = rlvc_tree_class(tree, node);
+        number(p, " [shape=box, label=\"class ", c);
+        number(p, "\\naction ", values->policy[c]);
+        real(p, "\\nvalue ", values->value[c], 4);
+        string(p, "\"];\n");
+        return;
+    }
+    string(p, " [label=\"");
+    name(p, node);
+    string(p, "\"];\n");
+    for (uint32_t side = 0; side < 2; side++) {
+        number(p, "  n", node);
+        number(p, " -> n", tree->node[node] + side);
+        string(p, side ? " [label=\"yes\"];\n" : " [label=\"no\", style=dashed];\n");
+    }
+}
+
+/* ------------------------------------------------------------------ JSON */
+
+static void print_json_class(printer *p, uint32_t c) {
+    const rlvc_values *values = &p->agent->values;
+    number(p, ", \"class\": ", c);
+    number(p, ", \"action\": ", values->policy[c]);
+    real(p, ", \"value\": ", values->value[c], 9);
+    for (uint32_t a = 0; a < values->actions; a++)
+        real(p, a ? ", " : ", \"q\": [", values->q[rlvc_values_pair(values, c, a)], 9);
+    for (uint32_t a = 0; a < values->actions; a++)
+        number(p, a ? ", " : "], \"samples\": [",
+               values->tried[rlvc_values_pair(values, c, a)]);
+    string(p, "]}");
+}
+
+static void print_json_test(printer *p, uint32_t node) {
+    const rlvc_tree *tree = &p->agent->tree;
+    const rlvc_split *about = &tree->split[rlvc_tree_split_of(tree, node)].about;
+    string(p, ", \"test\": \"");
+    name(p, node);
+    number(p, "\", \"absent\": ", tree->node[node]);
+    number(p, ", \"present\": ", tree->node[node] + 1u);
+    number(p, ", \"split\": ", rlvc_tree_split_of(tree, node));
+    number(p, ", \"split_class\": ", about->class_id);
+    number(p, ", \"step\": ", about->step);
+    number(p, ", \"action\": ", about->action);
+    number(p, ", \"samples\": ", about->samples);
+    number(p, ", \"tests\": ", about->tests);
+    real(p, ", \"score\": ", about->score, 9);
+    real(p, ", \"log_p\": ", about->log_p, 9);
+    string(p, "}");
+}
+
+static void print_json(printer *p, uint32_t node) {
+    if (node > 0)
+        string(p, ",\n");
+    number(p, "  {\"node\": ", node);
+    if (rlvc_tree_is_leaf(&p->agent->tree, node))
+        print_json_class(p, rlvc_tree_class(&p->agent->tree, node));
+    else
+        print_json_test(p, node);
+}
+
+/* ------------------------------------------------------------------ all of them */
+
+static void print_nodes(printer *p, uint32_t format) {
+    uint32_t node = 0;
+    do {
+        if (format == RLVC_PRINT_TEXT)
+            print_text(p, node);
+        else if (format == RLVC_PRINT_DOT)
+            print_dot(p, node);
+        else
+            print_json(p, node);
+        node = rlvc_tree_walk(&p->agent->tree, node);
+    } while (node != 0 && p->text.status == RLVC_OK);
+}
+
+rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx) {
+    if (!agent || !write)
+        return RLVC_E_NULL;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    if (format > RLVC_PRINT_JSON)
+        return RLVC_E_RANGE;
+    printer p = {{write, ctx, RLVC_OK}, agent};
+    agent->busy = 1;
+    if (format == RLVC_PRINT_DOT) {
+        string(&p, "digraph rlvc {\n  node [fontname=\"sans-serif\"];\n");
+    } else if (format == RLVC_PRINT_JSON) {
+        number(&p, "{\"classes\": ", agent->tree.classes);
+        number(&p, ", \"actions\": ", agent->config.actions);
+        number(&p, ", \"step\": ", agent->step);
+        string(&p, ", \"nodes\": [\n");
+    }
+    print_nodes(&p, format);
+    if (format == RLVC_PRINT_DOT)
+        string(&p, "}\n");
+    else if (format == RLVC_PRINT_JSON)
+        string(&p, "\n]}\n");
+    agent->busy = 0;
+    return p.text.status;
+}

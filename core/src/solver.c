@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* Value iteration and policy iteration: see solver.h. */
+#include "solver.h"
+
+#include "replay.h"
+
+enum { SWEEP, IMPROVE };
+
+static void restart(rlvc_solver *solver, uint8_t phase) {
+    solver->phase = phase;
+    solver->class_id = 0;
+    solver->action = 0;
+    solver->transition = 0;
+    rlvc_sum_clear(&solver->sum);
+}
+
+void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind) {
+    solver->residual = 0.0f;
+    solver->largest = 0.0f;
+    solver->sweeps = 0;
+    solver->improve = kind == RLVC_SOLVER_POLICY_ITERATION;
+    solver->changed = 0;
+    solver->done = 0;
+    restart(solver, solver->improve ? IMPROVE : SWEEP);
+}
+
+static float magnitude(float x) {
+    return x < 0.0f ? -x : x;
+}
+
+/* Has the sweep that ended settled V, as the head of solver.h tells? */
+static int settled(const rlvc_solver *solver, const rlvc_solving *solving) {
+    float gamma = solving->discount;
+    float enough = solving->tolerance;
+    if (gamma > 0.0f && gamma < 1.0f)
+        enough = enough * (1.0f - gamma) / gamma;
+    float resolution = 4.0e-7f * solver->largest; /* some 4 units in the last place */
+    return solver->residual <= (enough > resolution ? enough : resolution);
+}
+
+/* Ends a sweep, or begins the next. */
+static void end_sweep(rlvc_solver *solver, const rlvc_solving *solving) {
+    solver->sweeps++;
+    if (solver->sweeps >= solving->max_sweeps || (settled(solver, solving) && !solver->improve)) {
+        solver->done = 1;
+    } else if (settled(solver, solving)) {
+        solver->changed = 0;
+        restart(solver, IMPROVE);
+    } else {
+        solver->residual = 0.0f;
+        solver->largest = 0.0f;
+        restart(solver, SWEEP);
+    }
+}
+
+/* V(c), once every Q(c, a) of the class is there. */
+static void back_up(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
+    uint32_t c = solver->class_id;
+    float before = values->value[c];
+    float after = rlvc_values_best(values, c);
+    if (solver->improve) {
+        size_t pair = rlvc_values_pair(values, c, values->trial[c]);
+        after = rlvc_values_counts(values, pair) ? values->q[pair] : before;
+    }
+    values->value[c] = after;
+    float change = magnitude(after - before);
+    solver->residual = change > solver->residual ? change : solver->residual;
+    solver->largest = magnitude(after) > solver->largest ? magnitude(after) : solver->largest;
+    solver->action = 0;
+    if (++solver->class_id == solving->classes)
+        end_sweep(solver, solving);
+}
+
+/* One unit of a sweep: adds a transition, or completes a pair. */
+static void sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
+    size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
+    if (solver->transition < values->first[pair + 1u]) {
+        const rlvc_sample *transition = &solving->transition[solver->transition++];
+        uint32_t next = transition->key; /* nothing is to be had after the end of an episode */
+        rlvc_sum_add(&solver->sum, next == RLVC_NO_CLASS ? 0.0f : values->value[next],
+                     transition->slot);
+        return;
+    }
+    if (values->tried[pair] > 0)
+        values->q[pair] = values->reward[pair] + solving->discount * rlvc_sum_mean(&solver->sum);
+    else
+        values->q[pair] = values->optimistic ? values->optimistic_value : 0.0f;
+    rlvc_sum_clear(&solver->sum);
+    if (++solver->action == values->actions)
+        back_up(solver, solving, values);
+}
+
+/* Makes the policy of one class greedy. An action must be better than the present one by more than what
+ * the values are uncertain by, or two that are equally good could take turns for ever. */
+static void improve(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
+    uint32_t c = solver->class_id;
+    uint32_t greedy = rlvc_values_greedy(values, c);
+    size_t now = rlvc_values_pair(values, c, values->trial[c]);
+    float better = values->q[rlvc_values_pair(values, c, greedy)] - values->q[now];
+    int first_time = solver->sweeps == 0 || !rlvc_values_counts(values, now);
+    if (greedy != values->trial[c] && (first_time || better > solving->tolerance)) {
+        values->trial[c] = (uint8_t)greedy;
+        solver->changed = 1;
+    }
+    if (++solver->class_id < solving->classes)
+        return;
+    if (solver->changed || solver->sweeps == 0)
+        restart(solver, SWEEP);
+    else
+        solver->done = 1;
+    solver->residual = solver->done ? solver->residual : 0.0f;
+    solver->largest = 0.0f;
+}
+
+uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
+                          uint32_t budget) {
+    uint32_t used = 0;
+    for (; used < budget && !solver->done; used++) {
+        if (solver->phase == SWEEP)
+            sweep(solver, solving, values);
+        else
+            improve(solver, solving, values);
+    }
+    return used;
+}

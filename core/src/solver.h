@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* Batch solvers over the class-level model (section 2.3): value iteration and policy iteration.
+ *
+ * Both sweep over the classes,
+ *     Q(c, a) := r(c, a) + gamma * sum over c' of n(c, a, c') / n(c, a) * V(c')
+ * and put V(c) in place as they go (Gauss-Seidel). Value iteration takes V(c) := max_a Q(c, a), that is
+ * equation (2). Policy iteration takes V(c) := Q(c, pi(c)) until that has settled, then makes pi greedy,
+ * until nothing changes.
+ *
+ * A sweep contracts the error by gamma, so that after one that changed no V by more than delta, V is
+ * within delta * gamma / (1 - gamma) of its fixed point: a sweep is the last when that is at most
+ * config.tolerance. (For gamma = 1 nothing is known; then delta itself is held to the tolerance.) Where
+ * binary32 cannot resolve so much, a few units in the last place of the largest value do. */
+#ifndef RLVC_SRC_SOLVER_H
+#define RLVC_SRC_SOLVER_H
+
+#include "mean.h"
+#include "values.h"
+
+typedef struct rlvc_solver {
+    rlvc_sum sum;
+    float residual; /* max |V_new - V_old| so far in this sweep; at the end, of the last sweep */
+    float largest;  /* max |V| likewise */
+    uint32_t sweeps;
+    uint32_t class_id; /* where the sweep is: class, action, transition */
+    uint32_t action;
+    uint32_t transition;
+    uint8_t improve; /* policy iteration */
+    uint8_t changed; /* the policy, in this improvement */
+    uint8_t phase;
+    uint8_t done;
+} rlvc_solver;
+
+/* What does not change during a solution. */
+typedef struct rlvc_solving {
+    const rlvc_sample *transition; /* the model's: see model.h */
+    uint32_t classes;
+    uint32_t max_sweeps;
+    float discount;
+    float tolerance;
+} rlvc_solving;
+
+void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind);
+
+/* @return the work, at most budget (>= 1): a unit for each transition and each pair, in each sweep. */
+uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
+                          uint32_t budget);
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* The agent's state: everything that lies in the caller's block. */
+#ifndef RLVC_SRC_STATE_H
+#define RLVC_SRC_STATE_H
+
+#include "model.h"
+#include "rng.h"
+#include "solver.h"
+#include "split.h"
+#include "tree.h"
+
+/* A learning step under way: see learn.c. */
+typedef struct rlvc_learner {
+    union {
+        rlvc_grouping grouping;
+        rlvc_search search;
+        rlvc_model model;
+        rlvc_solver solver;
+    } work;              /* of the phase */
+    rlvc_split best;     /* the best split of the class under examination, if found */
+    uint32_t end;        /* N: interactions at positions [0, end) are the database */
+    uint32_t at;         /* position, pair or class, by phase */
+    uint32_t node;       /* where the walk of the percept at position `at` is */
+    uint32_t action;     /* under examination, of class `at` */
+    uint32_t classes;    /* when this round began */
+    uint32_t rounds;     /* begun in this step */
+    uint32_t splits;     /* made in this step */
+    uint32_t made;       /* made in this round */
+    uint8_t phase;
+    uint8_t found;
+    uint8_t searching;   /* the search in (at, action) has begun */
+} rlvc_learner;
+
+struct rlvc_agent {
+    rlvc_config config;
+    rlvc_domain domain;
+    rlvc_replay replay;
+    rlvc_tree tree;
+    rlvc_values values;
+    rlvc_workspace space;
+    rlvc_learner learner;
+    rlvc_rng rng;
+    uint64_t interactions;
+    uint16_t *pending;   /* [classes] the class that a split of this round made from one, or 0 */
+    uint32_t step;       /* k */
+    uint32_t run;        /* greedy actions that the present run of exploitation still has to take */
+    uint32_t last_split; /* the step of the newest split */
+    uint32_t refused;
+    uint32_t sweeps;     /* of the last solution */
+    float residual;
+    uint8_t busy;        /* a callback is being called */
+};
+
+static inline int rlvc_is_incremental(const rlvc_config *config) {
+    return config->solver == RLVC_SOLVER_Q_LEARNING || config->solver == RLVC_SOLVER_SARSA;
+}
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* Tables by class and action: see values.h. */
+#include "values.h"
+
+void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config *config) {
+    uint64_t pairs = (uint64_t)config->classes * config->actions;
+    values->q = rlvc_arena_carve(arena, pairs, sizeof *values->q);
+    values->reward = rlvc_arena_carve(arena, pairs, sizeof *values->reward);
+    values->tried = rlvc_arena_carve(arena, pairs, sizeof *values->tried);
+    values->first = rlvc_arena_carve(arena, pairs + 1u, sizeof *values->first);
+    values->value = rlvc_arena_carve(arena, config->classes, sizeof *values->value);
+    values->policy = rlvc_arena_carve(arena, config->classes, sizeof *values->policy);
+    values->trial = rlvc_arena_carve(arena, config->classes, sizeof *values->trial);
+    values->actions = config->actions;
+    values->optimistic = config->untried == RLVC_UNTRIED_OPTIMISTIC;
+    values->optimistic_value = config->optimistic_value;
+}
+
+void rlvc_values_clear(rlvc_values *values) {
+    for (uint32_t a = 0; a < values->actions; a++) {
+        values->q[a] = values->optimistic ? values->optimistic_value : 0.0f;
+        values->reward[a] = 0.0f;
+        values->tried[a] = 0;
+    }
+    values->value[0] = values->q[0];
+    values->policy[0] = 0;
+    values->trial[0] = 0;
+}
+
+void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_class) {
+    for (uint32_t a = 0; a < values->actions; a++) {
+        size_t to = rlvc_values_pair(values, new_class, a);
+        size_t from = rlvc_values_pair(values, old_class, a);
+        values->q[to] = values->q[from];
+        values->reward[to] = values->reward[from];
+        values->tried[to] = values->tried[from];
+    }
+    values->value[new_class] = values->value[old_class];
+    values->policy[new_class] = values->policy[old_class];
+    values->trial[new_class] = values->trial[old_class];
+}
+
+uint32_t rlvc_values_greedy(const rlvc_values *values, uint32_t class_id) {
+    uint32_t best = values->actions;
+    for (uint32_t a = 0; a < values->actions; a++) {
+        size_t pair = rlvc_values_pair(values, class_id, a);
+        if (!rlvc_values_counts(values, pair))
+            continue;
+        if (best == values->actions ||
+            values->q[pair] > values->q[rlvc_values_pair(values, class_id, best)])
+            best = a;
+    }
+    return best == values->actions ? values->policy[class_id] : best;
+}
+
+float rlvc_values_best(const rlvc_values *values, uint32_t class_id) {
+    size_t pair = rlvc_values_pair(values, class_id, rlvc_values_greedy(values, class_id));
+    return rlvc_values_counts(values, pair) ? values->q[pair] : values->value[class_id];
+}
+
+static int is_number(float x) {
+    return x - x == 0.0f;
+}
+
+int rlvc_values_check(const rlvc_values *values, uint32_t classes) {
+    for (uint32_t c = 0; c < classes; c++) {
+        if (values->policy[c] >= values->actions || values->trial[c] >= values->actions ||
+            !is_number(values->value[c]))
+            return 0;
+        for (uint32_t a = 0; a < values->actions; a++) {
+            if (!is_number(values->q[rlvc_values_pair(values, c, a)]))
+                return 0;
+        }
+    }
+    return 1;
+}
