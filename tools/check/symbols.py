@@ -32,7 +32,7 @@ def symbols(archive):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("archive")
-    parser.add_argument("--asserts", action="store_true",
+    parser.add_argument("--asserts", action=argparse.BooleanOptionalAction, default=False,
                         help="the archive was built with its assertions")
     arguments = parser.parse_args()
     allowed = ALLOWED | (ASSERTS if arguments.asserts else set())
