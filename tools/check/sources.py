@@ -18,7 +18,7 @@ FLOORS = {
     "samples": 4, "split": 4,
     "aliasing": 3, "incremental": 3, "solver": 3,
     "cutpoint": 2, "returns": 2, "tree": 2, "values": 2,
-    "chi2": 1, "replay": 1, "score": 1, "sort": 1,
+    "chi2": 1, "replay": 1, "score": 1, "sort": 1, "text": 1,
     "arena": 0, "mean": 0, "ones": 0, "real": 0, "rng": 0, "status": 0,
     "assert": -1,
 }
