@@ -162,3 +162,17 @@ def test_readme(tree):
     assert tree.check("readme")[0] == 0
     assert "#include <a.h>\nint main(void) { return 0; }\n```\n\nText\n" in \
         (tree.folder / "README.md").read_text()
+
+
+def test_bits(tree):
+    """Programs that differ in a digit are told apart, programs that differ in time are not."""
+    for name, value, seconds in [("one", "0.1", 1), ("two", "0.1", 2), ("three", "0.10000001", 1)]:
+        program = tree.folder / name
+        program.write_text("#!/bin/sh\nfor path; do :; done\n"  # the last argument
+                           f"echo '{{\"runs\": [{{\"value\": {value}, \"seconds\": {seconds}}}]}}'"
+                           ' >"$path"\n', encoding="utf-8")
+        program.chmod(0o755)
+    one, two, three = (tree.folder / name for name in ("one", "two", "three"))
+    assert tree.check("bits", "--seeds", "1", one, two)[0] == 0
+    status, output = tree.check("bits", "--seeds", "1", one, three)
+    assert status == 1 and "--seed 1" in output

@@ -133,9 +133,9 @@ def public_functions():
 def table(plain, optimised, compiler):
     yield from (
         "# Worst-case stack\n",
-        f"x86-64, gcc {compiler}, `-O2`; bytes, return addresses included. Written by",
-        "`tools/check/stack.py --write`; a test fails when it is stale. No function of the core is",
-        "recursive or has a frame of variable size.\n",
+        f"x86-64, gcc {compiler}, `-O2`; bytes, return addresses included, and 64 granted to memcpy",
+        "and its like. Written by `tools/check/stack.py --write`; a test fails when it is stale. No",
+        "function of the core is recursive or has a frame of variable size.\n",
         "*Callback at* is how much of the stack is in use when the deepest callback is called.",
         "What the callback needs comes on top of that; the sum may be more than the *bytes*.\n",
         "| public function | bytes | callback at | callbacks it may call |",
