@@ -115,26 +115,6 @@ static inline int surely_below(const rlvc_scan *scan, int64_t n, uint32_t x, uin
     return 4 * (n < 0 ? -n : n) <= smallest;
 }
 
-/* Whether the path from (x0, y0) to (x1, y1) is surely not above the bar. Adds to *work. */
-static int pass_over(const rlvc_scan *scan, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1,
-                     uint32_t *work) {
-    int64_t right = deviation(scan, x1, y0);
-    int64_t left = deviation(scan, x0, y1);
-    *work += 2u * RLVC_SCAN_BOUND_UNITS;
-    int right_below = right <= 0 || surely_below(scan, right, x1, y0);
-    int left_below = left >= 0 || surely_below(scan, left, x0, y1);
-    float limit = scan->bar * (1.0f - MARGIN);
-    if (!right_below) {
-        *work += RLVC_SCAN_SCORE_UNITS;
-        right_below = score_at(scan, x1, y0) <= limit;
-    }
-    if (right_below && !left_below) {
-        *work += RLVC_SCAN_SCORE_UNITS;
-        left_below = score_at(scan, x0, y1) <= limit;
-    }
-    return right_below && left_below;
-}
-
 /* Keeps the cutpoint at `below`, x samples with the feature below it, if it is the best so far. */
 static void consider(rlvc_scan *scan, uint32_t below, uint32_t x) {
     float score = score_at(scan, x, below - x);
@@ -225,14 +205,34 @@ static void move_to(rlvc_scan *scan, uint32_t word, uint32_t present) {
     scan->done = word == words_of(scan);
 }
 
-/* Passes over the words up to `end`, `present` samples in which exhibit the feature, if it may. */
-static int pass_words(rlvc_scan *scan, uint32_t end, uint32_t present, uint32_t *work) {
-    uint32_t samples = least(scan->count, end * 64u) - scan->word * 64u;
-    uint32_t x = scan->present;
-    uint32_t y = scan->word * 64u - x;
-    if (!pass_over(scan, x, y, x + present, y + (samples - present), work))
-        return 0;
-    move_to(scan, end, present);
+/* Whether no cutpoint in the words up to `end`, `present` samples in which exhibit the feature, is
+ * above the bar. Adds to *work. */
+static int holds_nothing(const rlvc_scan *scan, uint32_t end, uint32_t present, uint32_t *work) {
+    const uint32_t words = end - scan->word;
+    const uint32_t samples = least(scan->count, end * 64u) - scan->word * 64u;
+    const uint32_t x0 = scan->present;
+    const uint32_t y0 = scan->word * 64u - x0;
+    const uint32_t x1 = x0 + present;
+    const uint32_t y1 = y0 + (samples - present);
+    const int64_t right = deviation(scan, x1, y0);
+    const int64_t left = deviation(scan, x0, y1);
+    const int right_open = right > 0 && !surely_below(scan, right, x1, y0);
+    const int left_open = left < 0 && !surely_below(scan, left, x0, y1);
+    const float limit = scan->bar * (1.0f - MARGIN);
+    *work += 2u * RLVC_SCAN_BOUND_UNITS;
+    if (!right_open && !left_open)
+        return 1;
+    if (words <= BLOCK_WORDS && no_cuts(scan->cuts + scan->word, words))
+        return 1;
+    if (right_open) {
+        *work += RLVC_SCAN_SCORE_UNITS;
+        if (score_at(scan, x1, y0) > limit)
+            return 0;
+    }
+    if (left_open) {
+        *work += RLVC_SCAN_SCORE_UNITS;
+        return score_at(scan, x0, y1) <= limit;
+    }
     return 1;
 }
 
@@ -240,7 +240,9 @@ static uint32_t chunk_step(rlvc_scan *scan) {
     uint32_t present = scan->chunk_present[scan->word / chunk_words(scan)];
     uint32_t end = least(words_of(scan), scan->word + chunk_words(scan));
     uint32_t work = 0;
-    if (!pass_words(scan, end, present, &work))
+    if (holds_nothing(scan, end, present, &work))
+        move_to(scan, end, present);
+    else
         scan->phase = BLOCK;
     return work;
 }
@@ -251,11 +253,10 @@ static uint32_t block_step(rlvc_scan *scan) {
     uint32_t words = end - scan->word;
     uint32_t present = rlvc_ones(scan->column + scan->word, words);
     uint32_t work = words * RLVC_SCAN_WORD_UNITS;
-    if (pass_words(scan, end, present, &work)) {
+    if (holds_nothing(scan, end, present, &work)) {
+        move_to(scan, end, present);
         if (scan->level < BLOCK_LEVEL && end % (2u * size) == 0)
             scan->level++;
-    } else if (no_cuts(scan->cuts + scan->word, words)) {
-        move_to(scan, end, present);
     } else if (scan->level > 0) {
         scan->level--;
     } else {

@@ -17,8 +17,7 @@ typedef struct rlvc_cut {
     uint32_t present;       /* how many of all do */
 } rlvc_cut;
 
-/* What the scan charges, in units of work: about a tenth of the time of a sample looked at on a
- * workstation, about the same without a floating point unit. */
+/* What the scan charges, in units of work. */
 #define RLVC_SCAN_WORD_UNITS 1u   /* counting the bits of a word of 64 samples */
 #define RLVC_SCAN_BOUND_UNITS 4u  /* comparing with the bound that needs no logarithm */
 #define RLVC_SCAN_SCORE_UNITS 20u /* a score */
@@ -47,8 +46,8 @@ typedef struct rlvc_scan {
  * is above beat and above 0. O(1).
  * @param column bit i % 64 of word i / 64 is 1 if sample i (by ascending target) exhibits the
  *               feature; bits count and above are 0
- * @param cuts   bit i, i >= 1, is 1 if samples i - 1 and i have distinct targets, so that `below =
- * i` is a cutpoint; bit 0 and bits count and above are 0
+ * @param cuts   bit i, i >= 1, is 1 if samples i - 1 and i have distinct targets: `below = i` is a
+ *               cutpoint; bit 0 and bits count and above are 0
  * @param count  [1, 2^31 - 1]
  * @param score_kind RLVC_SCORE_*
  * @param beat   the best score of earlier columns, which win a tie; or 0, or less */
@@ -56,8 +55,9 @@ void rlvc_scan_begin(rlvc_scan *scan, const uint64_t *column, const uint64_t *cu
                      uint8_t score_kind, float beat);
 
 /* Goes on for at most `budget` (>= RLVC_BUDGET_MIN) units; returns the units used, at least 1
- * unless done. The answer is in scan->best once scan->done is 1, and does not depend on the
- * budgets. At most 64 * RLVC_SCAN_SCORE_UNITS units a word, in practice 2 or 3. */
+ * unless done. The answer is in scan->best once scan->done is 1, and neither it nor the sum of the
+ * units depends on the budgets. Rarely more than 4 units a word of a long column; at the worst
+ * little more than 64 scores a word. */
 uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget);
 
 #endif

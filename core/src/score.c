@@ -6,8 +6,7 @@
  *      P ln(P / Q) - (P - Q)  =  N (O ln(O / E) - (O - E))  >=  0
  *
  * to N^2 ln 2 times the gain. Near independence the two terms nearly agree. There, with
- * s = (P - Q) / (P + Q), so that ln(P / Q) = 2 (s + s^3 / 3 + s^5 / 5 + ...) and 2 P = (P + Q)(1 +
- * s):
+ * s = (P - Q) / (P + Q), so that ln(P / Q) = 2 (s + s^3 / 3 + ...) and 2 P = (P + Q)(1 + s):
  *
  *      P ln(P / Q) - (P - Q)  =  (P - Q) s + 2 P (s^3 / 3 + s^5 / 5 + ...)
  *

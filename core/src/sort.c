@@ -8,10 +8,13 @@
  * and the shift of each level are all that a stack would have to hold. The phases:
  *
  *      INSERT  goes through the buckets of the deepest level and sorts them by insertion, as long
- * as they are short; FIND    finds the end of a bucket that proves to be long, and the bits in
- * which its keys differ (if none, it is sorted); COUNT   counts in it each value of the 8 bits from
- * the highest such bit down: whatever bits all keys share are skipped; PLACE   brings every sample
- * to its bucket, which makes a new level.
+ *              as they are short;
+ *      FIND    finds the end of a bucket that proves to be long, and the bits in which its keys
+ *              differ (if none, it is sorted);
+ *      COUNT   counts in it each value of the digit that begins with the highest such bit: what
+ *              bits all keys share are skipped. The digit has 8 bits, or fewer in a run so short
+ *              that most buckets would get a sample or none;
+ *      PLACE   brings every sample to its bucket, which makes a new level.
  *
  * PLACE visits the buckets in turn. It exchanges each sample of the unfilled part of a bucket with
  * the first sample of the unfilled part of the bucket where it belongs; then comes the next bucket,
@@ -26,11 +29,13 @@
 
 enum { INSERT, FIND, COUNT, PLACE };
 
-#define BUCKETS 256u
-#define DIGIT_BITS 8u
 #define SHORT_RUN 32u /* sorted by insertion */
-#define CLEAR_UNITS 32u
-#define SUM_UNITS 64u
+#define BUCKETS_MIN 16u
+#define BUCKETS_MAX 256u
+#define BUCKET_SAMPLES                                                                             \
+    8u /* in a bucket, on average, at least; but for the smallest number of buckets */
+#define CLEARED_A_UNIT 8u /* counters cleared for one unit */
+#define SUMMED_A_UNIT 4u
 #define ACTION_MAX RLVC_BUDGET_MIN
 
 /* The scratch: where the unfilled part of each bucket begins, and where the bucket ends. */
@@ -39,7 +44,7 @@ static uint32_t *next_of(const rlvc_sort *sort) {
 }
 
 static uint32_t *end_of(const rlvc_sort *sort) {
-    return sort->scratch + BUCKETS;
+    return sort->scratch + BUCKETS_MAX;
 }
 
 static uint32_t least(uint32_t a, uint32_t b) {
@@ -108,12 +113,26 @@ static uint32_t insert_step(rlvc_sort *sort, uint32_t budget) {
     return work;
 }
 
-/* The lowest bit of the digit that has the highest bit of `differ` at its top. */
-static uint8_t digit_shift(uint32_t differ) {
+/* Makes the run [begin, at) a new level, to be distributed by the digit that begins with the
+ * highest bit in which its keys differ. Returns the units used. */
+static uint32_t enter_level(rlvc_sort *sort) {
+    const uint32_t samples = sort->at - sort->begin;
+    uint32_t buckets = BUCKETS_MIN;
     uint8_t shift = 0;
-    while (differ >> shift >= BUCKETS)
+    while (buckets < BUCKETS_MAX && samples >= 2u * BUCKET_SAMPLES * buckets)
+        buckets *= 2u;
+    while (sort->differ >> shift >= buckets)
         shift++;
-    return shift;
+    for (uint32_t i = 0; i < buckets; i++)
+        end_of(sort)[i] = 0;
+    sort->level++;
+    RLVC_ASSERT(sort->level < RLVC_SORT_LEVELS);
+    sort->level_end[sort->level] = sort->at;
+    sort->shift[sort->level] = shift;
+    sort->buckets = buckets;
+    sort->at = sort->begin;
+    sort->phase = COUNT;
+    return buckets / CLEARED_A_UNIT;
 }
 
 /* Goes to the end of the bucket. */
@@ -122,7 +141,8 @@ static uint32_t find_step(rlvc_sort *sort, uint32_t budget) {
     const uint32_t first = sample[sort->begin].key;
     const uint32_t upper = upper_bits(sort);
     const uint32_t from = sort->at;
-    const uint32_t stop = from + least(budget - CLEAR_UNITS, sort->level_end[sort->level] - from);
+    const uint32_t stop =
+        from + least(budget - BUCKETS_MAX / CLEARED_A_UNIT, sort->level_end[sort->level] - from);
     uint32_t differ = sort->differ;
     uint32_t at = from;
     for (; at < stop && ((sample[at].key ^ first) & upper) == 0; at++)
@@ -136,33 +156,23 @@ static uint32_t find_step(rlvc_sort *sort, uint32_t budget) {
         leave_levels(sort);
         return at - from;
     }
-    sort->level++;
-    sort->level_end[sort->level] = at;
-    sort->shift[sort->level] = digit_shift(differ);
-    sort->at = sort->begin;
-    sort->phase = COUNT;
-    for (uint32_t i = 0; i < BUCKETS; i++)
-        end_of(sort)[i] = 0;
-    return at - from + CLEAR_UNITS;
-}
-
-static uint32_t digit_of(uint32_t key, uint32_t shift) {
-    return key >> shift & (BUCKETS - 1u);
+    return at - from + enter_level(sort);
 }
 
 /* Counts in end_of(sort); then turns the counts into the buckets' ends and beginnings. */
 static uint32_t count_step(rlvc_sort *sort, uint32_t budget) {
     uint32_t *end = end_of(sort);
     const uint32_t shift = sort->shift[sort->level];
+    const uint32_t mask = sort->buckets - 1u;
     const uint32_t from = sort->at;
     const uint32_t stop = from + least(budget, sort->level_end[sort->level] - from);
     for (uint32_t i = from; i < stop; i++)
-        end[digit_of(sort->sample[i].key, shift)]++;
+        end[sort->sample[i].key >> shift & mask]++;
     sort->at = stop;
-    if (stop < sort->level_end[sort->level] || budget - (stop - from) < SUM_UNITS)
+    if (stop < sort->level_end[sort->level] || budget - (stop - from) < BUCKETS_MAX / SUMMED_A_UNIT)
         return stop - from;
     uint32_t sum = sort->begin;
-    for (uint32_t i = 0; i < BUCKETS; i++) {
+    for (uint32_t i = 0; i < sort->buckets; i++) {
         next_of(sort)[i] = sum;
         sum += end[i];
         end[i] = sum;
@@ -171,7 +181,7 @@ static uint32_t count_step(rlvc_sort *sort, uint32_t budget) {
     sort->bucket = 0;
     sort->at = sort->begin;
     sort->phase = PLACE;
-    return stop - from + SUM_UNITS;
+    return stop - from + sort->buckets / SUMMED_A_UNIT;
 }
 
 /* Exchanges samples of the unfilled part of one bucket after the other. */
@@ -180,13 +190,14 @@ static uint32_t place_step(rlvc_sort *sort, uint32_t budget) {
     uint32_t *next = next_of(sort);
     const uint32_t *end = end_of(sort);
     const uint32_t shift = sort->shift[sort->level];
+    const uint32_t mask = sort->buckets - 1u;
     uint32_t left = budget;
     while (left > 2u && sort->unplaced > 0) {
         const uint32_t unfilled = end[sort->bucket] - sort->at;
         const uint32_t count = least(unfilled, (left - 1u) / 2u);
         const uint32_t stop = sort->at + count;
         for (uint32_t i = sort->at; i < stop; i++) {
-            uint32_t place = next[digit_of(sample[i].key, shift)]++;
+            uint32_t place = next[sample[i].key >> shift & mask]++;
             rlvc_sample other = sample[place];
             sample[place] = sample[i];
             sample[i] = other;
@@ -195,7 +206,7 @@ static uint32_t place_step(rlvc_sort *sort, uint32_t budget) {
         sort->unplaced -= count;
         sort->at = stop;
         if (count == unfilled) {
-            sort->bucket = (sort->bucket + 1u) % BUCKETS;
+            sort->bucket = (sort->bucket + 1u) & mask;
             sort->at = next[sort->bucket];
         }
     }

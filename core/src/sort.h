@@ -9,8 +9,8 @@
 
 #define RLVC_SORT_SCRATCH_BYTES 2048u
 
-/* The whole, and a distribution by each of at most four digits. */
-#define RLVC_SORT_LEVELS 5u
+/* The whole, and a distribution by each of at most eight digits. */
+#define RLVC_SORT_LEVELS 9u
 
 typedef struct rlvc_sort {
     rlvc_sample *sample;
@@ -23,7 +23,8 @@ typedef struct rlvc_sort {
     uint32_t begin;    /* of the run at work; all before it are where they belong */
     uint32_t at;       /* the next sample of it to look at */
     uint32_t differ;   /* the bits in which its keys differ, as far as seen */
-    uint32_t bucket;   /* whose places are being filled, */
+    uint32_t buckets;  /* values of the deepest level's digit; */
+    uint32_t bucket;   /* the one whose places are being filled, */
     uint32_t unplaced; /* and how many samples of the run are not yet where it wants them */
 } rlvc_sort;
 
@@ -33,11 +34,9 @@ typedef struct rlvc_sort {
 void rlvc_sort_begin(rlvc_sort *sort, rlvc_sample *sample, uint32_t count, void *scratch);
 
 /* Goes on for at most `budget` (>= RLVC_BUDGET_MIN) units; returns the units used, at least 1
- * unless done. A sample looked at is charged 1 unit, moved by insertion 1 a place, exchanged 2; the
- * counters of a digit 32 when they are cleared, 64 when they are summed, 1 each time that one is
- * looked at. What comes out does not depend on the budgets. About 14 units a sample; at most 48 to
- * place it by insertion, 4 for each of 4 digits, and for each run of 32 samples or more what its
- * counters cost. */
+ * unless done. A sample looked at is charged 1 unit, moved by insertion 1 a place, exchanged 2; a
+ * counter 1/8 when it is cleared, 1/4 when it is summed, 1 each time that its bucket is visited.
+ * What comes out does not depend on the budgets. About 15 units a sample. */
 uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget);
 
 #endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The inside of the core, for C++.
+#ifndef RLVC_BENCH_CORE_H
+#define RLVC_BENCH_CORE_H
+
+extern "C" {
+#include "aliasing.h"
+#include "cutpoint.h"
+#include "rlvc/rlvc.h"
+#include "score.h"
+#include "sort.h"
+}
+
+#endif
