@@ -9,6 +9,13 @@
 
 #define WORD_BITS 64u
 
+/* Fetches memory that is wanted soon: in the order of their targets, samples lie all over the ring. */
+#if defined(__GNUC__)
+#define FETCH(address) __builtin_prefetch(address)
+#else
+#define FETCH(address) ((void)(address))
+#endif
+
 static uint32_t bits_of(const void *ctx) {
     return (uint32_t)(uintptr_t)ctx;
 }
@@ -102,6 +109,9 @@ static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32
         const uint32_t begin = rlvc_bits_feature(feature);
         for (uint32_t i = 0; i < n; i++) {
             const void *percept = rlvc_samples_percept(samples, first + i);
+            const uint32_t later = first + i + RLVC_DETECT_SAMPLES;
+            if (later < samples->count)
+                FETCH((const unsigned char *)rlvc_samples_percept(samples, later) + begin / 8u);
             row[i] = load_window((const unsigned char *)percept, samples->percept_bytes, begin);
         }
         transpose(row, m);

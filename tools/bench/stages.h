@@ -22,8 +22,8 @@ void sort(std::vector<rlvc_sample> &samples);
 // A cutpoint between every two samples of distinct targets.
 void mark(const std::vector<rlvc_sample> &samples, std::vector<uint64_t> &cuts);
 
-// Columns of features [first, first + 64) or as many as there are, `stride` words apart. Returns how
-// many.
+// Columns of features [first, first + 64) or as many as there are, `stride` words apart. Returns
+// how many.
 uint32_t detect(const rlvc_domain &domain, const rlvc_samples &samples, uint32_t first,
                 size_t stride, std::vector<uint64_t> &columns);
 

@@ -5,10 +5,10 @@
     versus_sklearn.py BUILD/tools/bench/bench_search [--samples N] [--bits F] [--repeats R]
 
 scikit-learn has no search over (feature, cutpoint of the target) as such; the same answer comes
-from one fit a feature, with the target as the only column and the feature's bit as the label: a tree of
-depth 1 by entropy, which splits at the cutpoint of the highest information gain. Ours is timed from
-unsorted samples on: sorting, detecting and searching. Both must find the same. Times are of the
-processor, so that whatever else runs on the machine does not count.
+from one fit a feature, with the target as the only column and the feature's bit as the label: a
+tree of depth 1 by entropy, which splits at the cutpoint of the highest information gain. Ours is
+timed from unsorted samples on: sorting, detecting and searching. Both must find the same. Times are
+of the processor, so that whatever else runs on the machine does not count.
 """
 import argparse
 import json
