@@ -51,8 +51,6 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
     } else if (phase == SEARCH) {
         learner->classes = agent->tree.classes;
         learner->made = 0;
-        learner->action = 0;
-        learner->found = 0;
         learner->searching = 0;
     } else if (phase == MODEL) {
         rlvc_model_begin(&learner->work.model, pairs(agent));
@@ -108,39 +106,31 @@ static rlvc_status step_label(rlvc_agent *agent) {
 
 /* ------------------------------------------------------------------ SEARCH */
 
-/* Carries out the best split of the class under examination, if it is significant. */
+/* Takes the result of the search in class `at`, and carries the split out if it is significant. */
 static void decide(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
-    if (!learner->found || !(learner->best.log_p < rlvc_ln(agent->config.alpha)))
+    rlvc_split split;
+    const void *feature = rlvc_search_result(&learner->work.search, &agent->space, &split);
+    if (!feature || !(split.log_p < rlvc_ln(agent->config.alpha)))
         return;
     if (agent->tree.classes == agent->tree.classes_max) {
         agent->refused++;
         return;
     }
     uint32_t made = agent->tree.classes;
-    rlvc_tree_grow(&agent->tree, &learner->best, agent->space.chosen);
+    split.class_id = learner->at;
+    split.step = agent->step;
+    rlvc_tree_grow(&agent->tree, &split, feature);
     rlvc_values_inherit(&agent->values, made, learner->at);
+    if (!rlvc_is_incremental(&agent->config)) { /* the next solution tells the two apart */
+        rlvc_values_forget(&agent->values, made);
+        rlvc_values_forget(&agent->values, learner->at);
+    }
     agent->pending[learner->at] = (uint16_t)made;
     agent->pending[made] = 0;
     agent->last_split = agent->step;
     learner->made++;
     learner->splits++;
-}
-
-/* Takes the result of the search in one action; of equals the lower action wins. */
-static void take_result(rlvc_agent *agent) {
-    rlvc_learner *learner = &agent->learner;
-    rlvc_split split;
-    if (!rlvc_search_result(&learner->work.search, &split))
-        return;
-    if (learner->found && !(split.log_p < learner->best.log_p))
-        return;
-    split.class_id = learner->at;
-    split.step = agent->step;
-    split.action = learner->action;
-    learner->best = split;
-    learner->found = 1;
-    memcpy(agent->space.chosen, agent->space.winner, agent->space.feature_bytes);
 }
 
 static void end_round(rlvc_agent *agent) {
@@ -153,46 +143,30 @@ static void end_round(rlvc_agent *agent) {
         enter(agent, FINISH);
 }
 
-/* Opens the next class or action. A unit each. */
-static void open_search(rlvc_agent *agent) {
-    rlvc_learner *learner = &agent->learner;
-    if (learner->at == learner->classes) {
-        end_round(agent);
-        return;
-    }
-    if (learner->action == agent->config.actions) {
-        decide(agent);
-        learner->found = 0;
-        learner->action = 0;
-        learner->at++;
-        return;
-    }
-    if (learner->action == 0)
-        agent->pending[learner->at] = 0;
-    size_t pair = rlvc_values_pair(&agent->values, learner->at, learner->action);
-    uint32_t begin = agent->values.first[pair], end = agent->values.first[pair + 1u];
-    if (end - begin < agent->config.min_samples) {
-        learner->action++;
-        return;
-    }
-    rlvc_search_begin(&learner->work.search, &agent->space, &agent->replay, begin, end);
-    learner->searching = 1;
-}
-
 static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
-    if (!learner->searching) {
-        open_search(agent);
-        *used = 1;
+    rlvc_search *search = &learner->work.search;
+    rlvc_aliasing criterion = aliasing(agent, agent->config.criterion);
+    rlvc_searching searching = {&agent->space,  &agent->replay,
+                                &criterion,     &agent->domain,
+                                agent->config.min_samples, agent->config.score};
+    *used = 1;
+    if (!learner->searching && learner->at == learner->classes) {
+        end_round(agent);
         return RLVC_OK;
     }
-    rlvc_aliasing criterion = aliasing(agent, agent->config.criterion);
-    rlvc_status status = rlvc_search_step(&learner->work.search, &agent->space, &criterion,
-                                          &agent->domain, agent->config.score, budget, used);
-    if (status == RLVC_OK && learner->work.search.done) {
-        take_result(agent);
+    if (!learner->searching) {
+        agent->pending[learner->at] = 0;
+        rlvc_search_begin(search, &searching,
+                          agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0));
+        learner->searching = 1;
+    }
+    rlvc_status status = rlvc_search_step(search, &searching, budget, used);
+    if (search->done) {
+        decide(agent);
         learner->searching = 0;
-        learner->action++;
+        learner->at++;
+        *used += *used == 0;
     }
     return status;
 }

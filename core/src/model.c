@@ -25,7 +25,8 @@ static void open_pair(rlvc_model *model, rlvc_values *values) {
     model->begin = model->end;
     model->end = values->first[model->pair + 1u];
     values->first[model->pair] = model->packed;
-    values->tried[model->pair] = model->end - model->begin;
+    if (model->end > model->begin)
+        values->tried[model->pair] = model->end - model->begin;
     model->at = model->begin;
     rlvc_sum_clear(&model->sum);
     model->phase = REWARD;

@@ -4,7 +4,10 @@
  * For each pair (c, a): the mean reward, how often it was tried, and for each class c' that followed,
  * how often. The transitions lie in the sample array itself, which is free while the values are solved
  * for, so that the model takes no memory of its own: transition i is {key: c', slot: count}, those of the
- * pair p at [first[p], first[p + 1]). RLVC_NO_CLASS stands for c' where the episode terminated. */
+ * pair p at [first[p], first[p + 1]). RLVC_NO_CLASS stands for c' where the episode terminated.
+ *
+ * A pair that has been tried, but whose interactions have all left the ring, has no transitions: the batch
+ * solvers leave its Q as it was, so that what was learnt is not lost with what it was learnt from. */
 #ifndef RLVC_SRC_MODEL_H
 #define RLVC_SRC_MODEL_H
 

@@ -118,7 +118,7 @@ static void print_json_test(printer *p, uint32_t node) {
     number(p, ", \"step\": ", about->step);
     number(p, ", \"action\": ", about->action);
     number(p, ", \"samples\": ", about->samples);
-    number(p, ", \"tests\": ", about->tests);
+    real(p, ", \"log_tests\": ", about->log_tests, 9);
     real(p, ", \"score\": ", about->score, 9);
     real(p, ", \"log_p\": ", about->log_p, 9);
     string(p, "}");

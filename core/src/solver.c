@@ -81,9 +81,9 @@ static void sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values 
                      transition->slot);
         return;
     }
-    if (values->tried[pair] > 0)
+    if (values->first[pair] < values->first[pair + 1u])
         values->q[pair] = values->reward[pair] + solving->discount * rlvc_sum_mean(&solver->sum);
-    else
+    else if (values->tried[pair] == 0)
         values->q[pair] = values->optimistic ? values->optimistic_value : 0.0f;
     rlvc_sum_clear(&solver->sum);
     if (++solver->action == values->actions)

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The search for the best split of a group of samples: see split.h. */
+/* The search for the best split of a class: see split.h.
+ *
+ * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates at a
+ * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
+ * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
+ * group is put to it (ASK) and its feature counted (ANSWER). */
 #include "split.h"
 
 #include "real.h"
@@ -7,32 +12,25 @@
 #include "score.h"
 #include <string.h>
 
-enum { SORT, MARK, PROPOSE, DETECT, SCAN, ASK, ANSWER, DONE };
+enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, DONE };
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
-    uint64_t words = ((uint64_t)config->capacity + 63u) / 64u;
+    uint64_t words = ((uint64_t)config->capacity + 63u * (uint64_t)config->actions) / 64u;
     uint64_t columns = (words | 1u) * config->features_at_once * sizeof *space->columns;
     if (columns < RLVC_SORT_SCRATCH_BYTES)
         columns = RLVC_SORT_SCRATCH_BYTES;
     space->sample = rlvc_arena_carve(arena, config->capacity, sizeof *space->sample);
-    space->cuts = rlvc_arena_carve(arena, words + 1u, sizeof *space->cuts);
+    space->cuts = rlvc_arena_carve(arena, words, sizeof *space->cuts);
     space->columns = rlvc_arena_carve(arena, 1, columns);
     space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
-    space->winner = rlvc_arena_carve(arena, 1, feature_bytes);
-    space->chosen = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->alone = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->together = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->group = rlvc_arena_carve(arena, config->actions, sizeof *space->group);
+    space->pool = rlvc_arena_carve(arena, config->features_at_once, sizeof *space->pool);
     space->feature_bytes = feature_bytes;
     space->features_at_once = config->features_at_once;
-}
-
-static uint32_t words_of(const rlvc_search *search) {
-    return (search->view.count + 63u) / 64u;
-}
-
-/* Column j of the block. An odd number of words apart, so that the words of one place in all columns do
- * not fall on the same lines of a cache. */
-static uint64_t *column(const rlvc_search *search, const rlvc_workspace *space, uint32_t j) {
-    return space->columns + (size_t)(words_of(search) | 1u) * j;
+    space->actions = config->actions;
 }
 
 static void enter(rlvc_search *search, uint8_t phase) {
@@ -41,84 +39,156 @@ static void enter(rlvc_search *search, uint8_t phase) {
     search->done = phase == DONE;
 }
 
-void rlvc_search_begin(rlvc_search *search, const rlvc_workspace *space, const rlvc_replay *replay,
-                       uint32_t begin, uint32_t end) {
-    search->view.percepts = replay->percept;
-    search->view.percept_bytes = replay->percept_bytes;
-    search->view.sample = space->sample + begin;
-    search->view.count = end - begin;
-    search->best.score = 0.0f;
-    search->tests = 0;
-    search->cuts = 0;
-    search->first = 0;
-    search->block = 0;
+/* Column j of the block. An odd number of words apart, so that the words of one place in all columns do
+ * not fall on the same lines of a cache. */
+static uint64_t *column(const rlvc_search *search, const rlvc_workspace *space, uint32_t j) {
+    return space->columns + (size_t)(search->words | 1u) * j;
+}
+
+static const void *feature(const rlvc_workspace *space, uint32_t j) {
+    return space->features + (size_t)j * space->feature_bytes;
+}
+
+static uint32_t size_of(const rlvc_group *group) {
+    return group->end - group->begin;
+}
+
+/* The group at work as the domain's oracle sees it. */
+static rlvc_samples view_of(const rlvc_search *search, const rlvc_group *group) {
+    rlvc_samples view = search->view;
+    view.sample += group->begin;
+    view.count = size_of(group);
+    return view;
+}
+
+static void open_sort(rlvc_search *search, const rlvc_workspace *space) {
+    const rlvc_group *group = &space->group[search->action];
+    rlvc_sample *sample = space->sample + (search->view.sample - space->sample) + group->begin;
+    rlvc_sort_begin(&search->inner.sort, sample, size_of(group), space->columns);
     enter(search, SORT);
-    rlvc_sort_begin(&search->inner.sort, space->sample + begin, end - begin, space->columns);
+}
+
+void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first) {
+    const rlvc_workspace *space = searching->space;
+    memset(search, 0, sizeof *search);
+    search->view.percepts = searching->replay->percept;
+    search->view.percept_bytes = searching->replay->percept_bytes;
+    search->view.sample = space->sample + first[0];
+    search->view.count = first[space->actions] - first[0];
+    for (uint32_t a = 0; a < space->actions; a++) {
+        rlvc_group *group = &space->group[a];
+        group->begin = first[a] - first[0];
+        group->end = first[a + 1u] - first[0];
+        group->cuts = 0;
+        group->word = search->words;
+        search->words += (size_of(group) + 63u) / 64u;
+    }
+    if (search->view.count < searching->min_samples)
+        enter(search, DONE);
+    else
+        open_sort(search, space);
+}
+
+/* ------------------------------------------------------------------ cutpoints */
+
+/* After all groups are marked: begins to look for features, if anything could be told apart. */
+static void end_marking(rlvc_search *search, const rlvc_searching *searching) {
+    search->action = 0;
+    if (search->groups == 0 || search->samples < searching->min_samples)
+        enter(search, DONE);
+    else
+        enter(search, searching->domain->oracle ? ASK : PROPOSE);
 }
 
 /* Marks whether a cutpoint lies before sample `at`. Targets are gathered into clusters from the lowest up
  * as aliasing.h tells them apart. */
-static void mark(rlvc_search *search, const rlvc_workspace *space, const rlvc_aliasing *aliasing,
-                 const rlvc_domain *domain) {
+static void mark(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    rlvc_group *group = &space->group[search->action];
     uint32_t at = search->at;
-    if (at == search->view.count) {
-        enter(search, search->cuts == 0 ? DONE : domain->oracle ? ASK : PROPOSE);
+    if (at == size_of(group)) {
+        search->groups += group->cuts > 0;
+        search->samples += group->cuts > 0 ? at : 0;
+        if (++search->action == space->actions)
+            end_marking(search, searching);
+        else
+            open_sort(search, space);
         return;
     }
-    uint32_t key = search->view.sample[at].key;
+    uint64_t *word = &space->cuts[group->word + at / 64u];
+    uint32_t key = search->view.sample[group->begin + at].key;
     if (at % 64u == 0)
-        space->cuts[at / 64u] = 0;
+        *word = 0;
     if (at == 0) {
         search->lowest = key;
-    } else if (rlvc_aliasing_distinct(aliasing, search->lowest, key)) {
-        space->cuts[at / 64u] |= (uint64_t)1 << at % 64u;
-        search->cuts++;
+    } else if (rlvc_aliasing_distinct(searching->aliasing, search->lowest, key)) {
+        *word |= (uint64_t)1 << at % 64u;
+        group->cuts++;
         search->lowest = key;
     }
     search->at++;
 }
 
+/* ------------------------------------------------------------------ the default oracle */
+
+/* Goes to the first group from search->action on that takes part; at the end, to the phase `then`. */
+static void next_group(rlvc_search *search, const rlvc_workspace *space, uint8_t phase,
+                       uint8_t then) {
+    while (search->action < space->actions && space->group[search->action].cuts == 0)
+        search->action++;
+    search->column = 0;
+    enter(search, search->action < space->actions ? phase : then);
+}
+
 /* Asks for the next block of candidates. */
-static rlvc_status propose(rlvc_search *search, const rlvc_workspace *space,
-                           const rlvc_domain *domain) {
+static rlvc_status propose(rlvc_search *search, const rlvc_searching *searching) {
+    static const rlvc_pool nothing = {0.0f, 0.0f, 0.0f, 0};
+    const rlvc_workspace *space = searching->space;
+    const rlvc_domain *domain = searching->domain;
     uint32_t written = 0;
     if (domain->candidates(domain->ctx, &search->view, search->first, space->features_at_once,
                            space->features, &written) != 0 ||
         written > space->features_at_once)
         return RLVC_E_CALLBACK;
     search->block = written;
-    search->column = 0;
-    enter(search, written == 0 ? DONE : DETECT);
+    search->action = 0;
+    for (uint32_t j = 0; j < written; j++)
+        space->pool[j] = nothing;
+    if (written == 0)
+        enter(search, DONE);
+    else
+        next_group(search, space, DETECT, DONE);
     return RLVC_OK;
 }
 
 /* 64 samples and the whole block by the domain's batch detector. */
-static rlvc_status detect_batch(rlvc_search *search, const rlvc_workspace *space,
-                                const rlvc_domain *domain, uint32_t *used) {
+static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searching,
+                                const rlvc_group *group, uint32_t *used) {
     uint64_t bits[RLVC_DETECT_FEATURES];
-    uint32_t left = search->view.count - search->at;
+    const rlvc_domain *domain = searching->domain;
+    uint32_t left = size_of(group) - search->at;
     uint32_t n = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
-    if (domain->detect(domain->ctx, &search->view, search->at, n, space->features, search->block,
-                       bits) != 0)
+    if (domain->detect(domain->ctx, &search->view, group->begin + search->at, n,
+                       searching->space->features, search->block, bits) != 0)
         return RLVC_E_CALLBACK;
     for (uint32_t j = 0; j < search->block; j++)
-        column(search, space, j)[search->at / 64u] = bits[j];
+        column(search, searching->space, j)[group->word + search->at / 64u] = bits[j];
     search->at += n;
     *used = n;
     return RLVC_OK;
 }
 
 /* One sample and the whole block by the feature detector. */
-static rlvc_status detect_each(rlvc_search *search, const rlvc_workspace *space,
-                               const rlvc_domain *domain, uint32_t *used) {
-    const void *percept = rlvc_samples_percept(&search->view, search->at);
+static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *searching,
+                               const rlvc_group *group, uint32_t *used) {
+    const rlvc_domain *domain = searching->domain;
+    const void *percept = rlvc_samples_percept(&search->view, group->begin + search->at);
     uint64_t bit = (uint64_t)1 << search->at % 64u;
     for (uint32_t j = 0; j < search->block; j++) {
         uint8_t present = 0;
-        const void *feature = space->features + (size_t)j * space->feature_bytes;
-        if (domain->exhibits(domain->ctx, percept, feature, &present) != 0)
+        if (domain->exhibits(domain->ctx, percept, feature(searching->space, j), &present) != 0)
             return RLVC_E_CALLBACK;
-        uint64_t *word = &column(search, space, j)[search->at / 64u];
+        uint64_t *word = &column(search, searching->space, j)[group->word + search->at / 64u];
         *word = (search->at % 64u == 0 ? 0 : *word & ~bit) | (present ? bit : 0);
     }
     search->at++;
@@ -126,60 +196,110 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_workspace *space,
     return RLVC_OK;
 }
 
-/* The column that search->column names is at hand: begins to scan it. */
-static void open_column(rlvc_search *search, const rlvc_workspace *space, uint8_t score) {
-    rlvc_scan_begin(&search->inner.scan, column(search, space, search->column), space->cuts,
-                    search->view.count, score, search->best.score);
+/* Begins to scan the column that search->column names. Where there is but one group, a column that cannot
+ * beat the best so far need not be scanned to the end; else its own best counts, for the sum. */
+static void open_column(rlvc_search *search, const rlvc_searching *searching,
+                        const rlvc_group *group) {
+    const rlvc_workspace *space = searching->space;
+    rlvc_scan_begin(&search->inner.scan, column(search, space, search->column) + group->word,
+                    space->cuts + group->word, size_of(group), searching->score,
+                    search->groups == 1 ? search->alone.score : 0.0f);
 }
 
-static rlvc_status detect(rlvc_search *search, const rlvc_workspace *space,
-                          const rlvc_domain *domain, uint8_t score, uint32_t *used) {
-    rlvc_status status = domain->detect ? detect_batch(search, space, domain, used)
-                                        : detect_each(search, space, domain, used);
-    if (status == RLVC_OK && search->at == search->view.count) {
-        open_column(search, space, score);
+static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, uint32_t *used) {
+    const rlvc_group *group = &searching->space->group[search->action];
+    rlvc_status status = searching->domain->detect
+                             ? detect_batch(search, searching, group, used)
+                             : detect_each(search, searching, group, used);
+    if (status == RLVC_OK && search->at == size_of(group)) {
+        open_column(search, searching, group);
         enter(search, SCAN);
     }
     return status;
 }
 
-static int divides(const rlvc_search *search, uint32_t present) {
-    return present > 0 && present < search->view.count;
+/* ------------------------------------------------------------------ evidence */
+
+/* Weighs a cutpoint of the group at work: the statistic of its table, and the evidence. */
+static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *searching,
+                         const rlvc_cut *cut, uint32_t count) {
+    uint32_t above = cut->present - cut->present_below;
+    rlvc_single weighed = {0.0f, cut->score, 0.0f, search->action};
+    weighed.evidence = searching->score == RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
+    (void)rlvc_chi2_table(cut->present_below, cut->below - cut->present_below, above,
+                          count - cut->below - above, &weighed.statistic);
+    return weighed;
 }
 
-/* Takes the result of one column and goes on to the next, or to the next block. */
-static void close_column(rlvc_search *search, const rlvc_workspace *space, uint8_t score) {
+static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
+                            const rlvc_single *found, uint32_t j) {
+    const rlvc_single *best = &search->alone;
+    if (found->evidence > best->evidence ||
+        (found->evidence == best->evidence && found->action < best->action)) {
+        search->alone = *found;
+        memcpy(space->alone, feature(space, j), space->feature_bytes);
+    }
+}
+
+/* Takes the result of one column and goes on to the next, or to the next group. */
+static void close_column(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_group *group = &space->group[search->action];
     const rlvc_cut *found = &search->inner.scan.best;
-    if (divides(search, found->present))
-        search->tests += search->cuts;
-    if (found->score > search->best.score) {
-        search->best = *found;
-        memcpy(space->winner, space->features + (size_t)search->column * space->feature_bytes,
-               space->feature_bytes);
+    rlvc_pool *pool = &space->pool[search->column];
+    if (found->present > 0 && found->present < size_of(group)) {
+        pool->degrees++;
+        pool->log_tests += rlvc_ln((float)group->cuts);
+    }
+    if (found->score > 0.0f) {
+        rlvc_single weighed = weigh(search, searching, found, size_of(group));
+        pool->evidence += weighed.evidence;
+        pool->statistic += weighed.statistic;
+        keep_best_alone(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
-        open_column(search, space, score);
+        open_column(search, searching, group);
         return;
     }
+    search->action++;
+    next_group(search, space, DETECT, CLOSE);
+}
+
+/* All groups have seen the block: looks at feature `column` of it, together. A unit each. */
+static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
+    const rlvc_pool *pool = &space->pool[search->column];
+    search->features += pool->degrees > 0;
+    if (pool->evidence > search->together.evidence) {
+        search->together = *pool;
+        memcpy(space->together, feature(space, search->column), space->feature_bytes);
+    }
+    if (++search->column < search->block)
+        return;
     search->first += search->block;
     enter(search, search->block < space->features_at_once ? DONE : PROPOSE);
 }
 
-/* Asks the domain's own oracle about the next cutpoint. */
-static rlvc_status ask(rlvc_search *search, const rlvc_workspace *space, const rlvc_domain *domain) {
+/* ------------------------------------------------------------------ the domain's own oracle */
+
+/* Puts the next cutpoint of the group at work to the oracle. */
+static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_domain *domain = searching->domain;
+    const rlvc_group *group = &space->group[search->action];
     uint32_t at = search->at;
-    if (at == search->view.count) {
-        enter(search, DONE);
+    if (group->cuts == 0 || at == size_of(group)) {
+        search->action++;
+        next_group(search, space, ASK, DONE);
         return RLVC_OK;
     }
-    if (space->cuts[at / 64u] >> at % 64u & 1u) {
+    if (space->cuts[group->word + at / 64u] >> at % 64u & 1u) {
+        static const rlvc_answer nothing = {0, 0, 0, 0};
+        rlvc_samples view = view_of(search, group);
         rlvc_answer *answer = &search->inner.answer;
-        answer->considered = 0;
-        if (domain->oracle(domain->ctx, &search->view, at, space->features, &answer->considered) !=
-            0)
+        *answer = nothing;
+        if (domain->oracle(domain->ctx, &view, at, space->features, &answer->considered) != 0)
             return RLVC_E_CALLBACK;
         if (answer->considered > 0) {
-            answer->at = answer->present_below = answer->present = 0;
             search->phase = ANSWER;
             return RLVC_OK;
         }
@@ -188,14 +308,16 @@ static rlvc_status ask(rlvc_search *search, const rlvc_workspace *space, const r
     return RLVC_OK;
 }
 
-/* Looks for the oracle's feature in one sample; after the last, scores it at the oracle's cutpoint. */
-static rlvc_status answer(rlvc_search *search, const rlvc_workspace *space,
-                          const rlvc_domain *domain, uint8_t score) {
+/* Looks for the oracle's feature in one sample; after the last, weighs it at the oracle's cutpoint. */
+static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_domain *domain = searching->domain;
+    const rlvc_group *group = &space->group[search->action];
     rlvc_answer *answer = &search->inner.answer;
-    uint32_t count = search->view.count, below = search->at;
+    uint32_t count = size_of(group), below = search->at;
     if (answer->at < count) {
         uint8_t present = 0;
-        const void *percept = rlvc_samples_percept(&search->view, answer->at);
+        const void *percept = rlvc_samples_percept(&search->view, group->begin + answer->at);
         if (domain->exhibits(domain->ctx, percept, space->features, &present) != 0)
             return RLVC_E_CALLBACK;
         answer->present += present != 0;
@@ -205,24 +327,23 @@ static rlvc_status answer(rlvc_search *search, const rlvc_workspace *space,
     }
     search->phase = ASK;
     search->at++;
-    if (!divides(search, answer->present))
+    if (answer->present == 0 || answer->present == count)
         return RLVC_OK;
-    search->tests += answer->considered;
+    search->features += answer->considered;
     uint32_t above = answer->present - answer->present_below;
     rlvc_cut cut = {0.0f, below, answer->present_below, answer->present};
-    cut.score = rlvc_score(score, cut.present_below, below - cut.present_below, above,
+    cut.score = rlvc_score(searching->score, cut.present_below, below - cut.present_below, above,
                            count - below - above);
-    if (cut.score > search->best.score) {
-        search->best = cut;
-        memcpy(space->winner, space->features, space->feature_bytes);
-    }
+    rlvc_single weighed = weigh(search, searching, &cut, count);
+    keep_best_alone(search, space, &weighed, 0);
     return RLVC_OK;
 }
 
+/* ------------------------------------------------------------------ the whole */
+
 /* One elementary step of the phase. */
-static rlvc_status advance(rlvc_search *search, const rlvc_workspace *space,
-                           const rlvc_aliasing *aliasing, const rlvc_domain *domain, uint8_t score,
-                           uint32_t budget, uint32_t *used) {
+static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
+                           uint32_t *used) {
     *used = 1;
     switch (search->phase) {
     case SORT:
@@ -231,32 +352,33 @@ static rlvc_status advance(rlvc_search *search, const rlvc_workspace *space,
             enter(search, MARK);
         return RLVC_OK;
     case MARK:
-        mark(search, space, aliasing, domain);
+        mark(search, searching);
         return RLVC_OK;
     case PROPOSE:
-        return propose(search, space, domain);
+        return propose(search, searching);
     case DETECT:
-        return detect(search, space, domain, score, used);
+        return detect(search, searching, used);
     case SCAN:
         *used = rlvc_scan_step(&search->inner.scan, budget);
         if (search->inner.scan.done)
-            close_column(search, space, score);
+            close_column(search, searching);
+        return RLVC_OK;
+    case CLOSE:
+        close_feature(search, searching->space);
         return RLVC_OK;
     case ASK:
-        return ask(search, space, domain);
+        return ask(search, searching);
     default:
-        return answer(search, space, domain, score);
+        return answer(search, searching);
     }
 }
 
-rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_workspace *space,
-                             const rlvc_aliasing *aliasing, const rlvc_domain *domain, uint8_t score,
-                             uint32_t budget, uint32_t *used) {
+rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
+                             uint32_t *used) {
     *used = 0;
     while (!search->done && budget - *used >= RLVC_BUDGET_MIN) {
         uint32_t units = 0;
-        rlvc_status status =
-            advance(search, space, aliasing, domain, score, budget - *used, &units);
+        rlvc_status status = advance(search, searching, budget - *used, &units);
         if (status != RLVC_OK)
             return status;
         *used += units;
@@ -264,20 +386,35 @@ rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_workspace *space,
     return RLVC_OK;
 }
 
-int rlvc_search_result(const rlvc_search *search, rlvc_split *about) {
-    const rlvc_cut *best = &search->best;
-    if (!(best->score > 0.0f))
-        return 0;
-    uint32_t count = search->view.count;
-    uint32_t above = best->present - best->present_below;
-    float statistic = 0.0f, log_p = 0.0f;
-    (void)rlvc_chi2_table(best->present_below, best->below - best->present_below, above,
-                          count - best->below - above, &statistic);
-    (void)rlvc_chi2_survival(statistic, 1, NULL, &log_p);
-    log_p += rlvc_ln((float)search->tests);
-    about->samples = count;
-    about->tests = search->tests < UINT32_MAX ? (uint32_t)search->tests : UINT32_MAX;
-    about->score = best->score;
-    about->log_p = log_p < 0.0f ? log_p : 0.0f;
-    return 1;
+const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
+                               rlvc_split *about) {
+    const rlvc_single *alone = &search->alone;
+    if (!(alone->evidence > 0.0f))
+        return NULL;
+    float log_features = rlvc_ln((float)search->features);
+    about->action = alone->action;
+    about->samples = size_of(&space->group[alone->action]);
+    about->score = alone->score;
+    about->log_tests = log_features;
+    (void)rlvc_chi2_survival(alone->statistic, 1, NULL, &about->log_p);
+    /* The domain's own oracle already counts a feature for each cutpoint, and makes no sum. */
+    if (search->together.degrees > 0)
+        about->log_tests += rlvc_ln((float)space->group[alone->action].cuts);
+    about->log_p += about->log_tests;
+    if (search->groups > 1 && search->together.degrees > 0) {
+        const rlvc_pool *together = &search->together;
+        float log_p, log_tests = log_features + together->log_tests;
+        (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL, &log_p);
+        if (log_p + log_tests < about->log_p) {
+            about->action = space->actions;
+            about->samples = search->samples;
+            about->score = together->evidence / (float)search->samples;
+            about->log_tests = log_tests;
+            about->log_p = log_p + log_tests;
+        }
+        about->log_tests += rlvc_ln(2.0f);
+        about->log_p += rlvc_ln(2.0f);
+    }
+    about->log_p = about->log_p < 0.0f ? about->log_p : 0.0f;
+    return about->action == space->actions ? space->together : space->alone;
 }

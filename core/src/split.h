@@ -1,16 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* Class refinement (section 4.2.3): the best feature and cutpoint for the samples of one class and
- * action, and whether it is real (section 4.2.4).
+/* Class refinement (section 4.2.3): the best feature for one class, and whether it is real (4.2.4).
  *
- * The samples are sorted by target once. The cutpoints lie between neighbours whose targets are distinct,
- * and are kept as a string of bits. Each candidate feature becomes a column of bits in the order of the
- * samples, 1 where the sample's percept exhibits it; running counts over column and cutpoints then give
- * every 2 x 2 table. With N samples, F features and C cutpoints that costs O(N + F N / 64 + F C) beside
- * detecting, not O(F N C). Columns are made for a block of features at a time.
+ * The samples of each action are a group. A group is sorted by target once; its cutpoints lie between
+ * neighbours whose targets are distinct, and are kept as a string of bits. Each candidate feature becomes
+ * a column of bits in the order of the samples, 1 where the sample's percept exhibits it; running counts
+ * over column and cutpoints then give every 2 x 2 table. With N samples, F features and C cutpoints that
+ * costs O(N + F N / 64 + F C) beside detecting, not O(F N C). Columns are made for a block of features at
+ * a time.
  *
- * The winner is the pair (feature, cutpoint) of the highest score; of equals the earlier feature, then the
- * lower cutpoint. Its chi-square p-value, with one degree of freedom, is corrected by the number of pairs
- * that were tried (Bonferroni); a feature that all samples exhibit, or none, is not tried. */
+ * The evidence of a feature and a cutpoint in a group is its score times the samples of the group (for
+ * chi-square, which counts them already, the score). Two features may win:
+ *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower action,
+ *              then the earlier feature, then the lower cutpoint. Its chi-square statistic has one degree
+ *              of freedom, its p-value is corrected by C F.
+ *   together   the one with the most evidence summed over the groups, in each at the cutpoint that is best
+ *              there; of equals the earlier feature. The sum of its statistics has a degree of freedom
+ *              for each group that it divides, its p-value is corrected by F times their C's multiplied.
+ *              For what tells two situations apart mostly shows after each action, a little.
+ * The lower p-value is the split's; where there is more than one group, so that two were made, it is
+ * corrected by 2 (all these are Bonferroni's). F counts the features that divide some group. Under the
+ * returns criterion a class has one group, its greedy action's, and the split is the published one. */
 #ifndef RLVC_SRC_SPLIT_H
 #define RLVC_SRC_SPLIT_H
 
@@ -18,22 +27,49 @@
 #include "cutpoint.h"
 #include "sort.h"
 
+/* The samples of the class after one action. */
+typedef struct rlvc_group {
+    uint32_t begin; /* samples [begin, end) of the class */
+    uint32_t end;
+    uint32_t cuts; /* cutpoints; a group without one takes no part */
+    uint32_t word; /* where its words begin in the cutpoints and in each column */
+} rlvc_group;
+
+/* What the groups so far say about one feature of the block, together. */
+typedef struct rlvc_pool {
+    float evidence;
+    float statistic;
+    float log_tests; /* of combinations of cutpoints */
+    uint32_t degrees;
+} rlvc_pool;
+
+/* The best feature alone. */
+typedef struct rlvc_single {
+    float evidence;
+    float score;
+    float statistic;
+    uint32_t action;
+} rlvc_single;
+
 /* The memory of a search. */
 typedef struct rlvc_workspace {
     rlvc_sample *sample;     /* [capacity]: all samples, grouped; or the model's transitions */
-    uint64_t *cuts;          /* [words + 1] */
+    uint64_t *cuts;          /* [words] */
     uint64_t *columns;       /* [features_at_once][words | 1], and scratch for sorting */
     unsigned char *features; /* [features_at_once] the block of candidates */
-    unsigned char *winner;   /* the best feature of the group searched */
-    unsigned char *chosen;   /* the best feature of the class so far, over its actions */
+    unsigned char *alone;    /* the winner alone, */
+    unsigned char *together; /* and together */
+    rlvc_group *group;       /* [actions] */
+    rlvc_pool *pool;         /* [features_at_once] */
     uint32_t feature_bytes;
     uint32_t features_at_once;
+    uint32_t actions;
 } rlvc_workspace;
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes);
 
-/* Counting how a feature that the domain's own oracle proposed divides the samples. */
+/* Counting how a feature that the domain's own oracle proposed divides a group. */
 typedef struct rlvc_answer {
     uint32_t at;
     uint32_t present_below;
@@ -41,40 +77,54 @@ typedef struct rlvc_answer {
     uint32_t considered;
 } rlvc_answer;
 
-/* The search in one group, in slices. */
+/* The search in one class, in slices. */
 typedef struct rlvc_search {
-    rlvc_samples view;
+    rlvc_samples view; /* the class */
     union {
         rlvc_sort sort;
         rlvc_scan scan;
         rlvc_answer answer;
     } inner;
-    rlvc_cut best;
-    uint64_t tests; /* (feature, cutpoint) pairs tried */
-    uint32_t cuts;  /* cutpoints */
-    uint32_t lowest; /* the key that began the present cluster of targets */
-    uint32_t at;    /* sample or word or cutpoint, by phase */
-    uint32_t first; /* number of the block's first candidate */
-    uint32_t block; /* candidates in the block */
-    uint32_t column;
+    rlvc_single alone;
+    rlvc_pool together;
+    uint64_t features;  /* F; with the domain's own oracle, what it considered in all */
+    uint32_t samples;   /* in the groups that take part */
+    uint32_t groups;    /* that take part */
+    uint32_t action;    /* the group at work */
+    uint32_t words;     /* of all groups */
+    uint32_t at;        /* sample of the group */
+    uint32_t lowest;    /* the key that began the present cluster of targets */
+    uint32_t first;     /* number of the block's first candidate */
+    uint32_t block;     /* candidates in the block */
+    uint32_t column;    /* of the block */
     uint8_t phase;
     uint8_t done;
 } rlvc_search;
 
-/* Begins the search in samples [begin, end) of the workspace. O(1). */
-void rlvc_search_begin(rlvc_search *search, const rlvc_workspace *space, const rlvc_replay *replay,
-                       uint32_t begin, uint32_t end);
+/* What does not change while a step is under way. */
+typedef struct rlvc_searching {
+    const rlvc_workspace *space;
+    const rlvc_replay *replay;
+    const rlvc_aliasing *aliasing;
+    const rlvc_domain *domain;
+    uint32_t min_samples;
+    uint8_t score;
+} rlvc_searching;
+
+/* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the workspace's
+ * samples. O(actions). */
+void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for each
- * sample sorted, marked or detected (with up to 64 features; without detect(), for each feature of each
- * sample), and what the scan of each column is charged.
+ * sample marked or detected (with up to 64 features; without detect(), for each feature of each sample),
+ * what sorting and the scan of each column are charged, and one for each feature of a block.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
-rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_workspace *space,
-                             const rlvc_aliasing *aliasing, const rlvc_domain *domain, uint8_t score,
-                             uint32_t budget, uint32_t *used);
+rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
+                             uint32_t *used);
 
-/* Once done: fills score, samples, tests and log_p of *about, and says if there is a split at all (the
- * feature is in space->winner). O(1). */
-int rlvc_search_result(const rlvc_search *search, rlvc_split *about);
+/* Once done: fills action, samples, log_tests, score and log_p of *about.
+ * @return the feature, in the workspace; null if there is none to tell the samples apart. O(degrees). */
+const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
+                               rlvc_split *about);
 
 #endif

@@ -17,18 +17,15 @@ typedef struct rlvc_learner {
         rlvc_model model;
         rlvc_solver solver;
     } work;              /* of the phase */
-    rlvc_split best;     /* the best split of the class under examination, if found */
     uint32_t end;        /* N: interactions at positions [0, end) are the database */
     uint32_t at;         /* position, pair or class, by phase */
     uint32_t node;       /* where the walk of the percept at position `at` is */
-    uint32_t action;     /* under examination, of class `at` */
     uint32_t classes;    /* when this round began */
     uint32_t rounds;     /* begun in this step */
     uint32_t splits;     /* made in this step */
     uint32_t made;       /* made in this round */
     uint8_t phase;
-    uint8_t found;
-    uint8_t searching;   /* the search in (at, action) has begun */
+    uint8_t searching; /* the search in class `at` has begun */
 } rlvc_learner;
 
 struct rlvc_agent {

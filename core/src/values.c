@@ -40,6 +40,11 @@ void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_c
     values->trial[new_class] = values->trial[old_class];
 }
 
+void rlvc_values_forget(rlvc_values *values, uint32_t class_id) {
+    for (uint32_t a = 0; a < values->actions; a++)
+        values->tried[rlvc_values_pair(values, class_id, a)] = 0;
+}
+
 uint32_t rlvc_values_greedy(const rlvc_values *values, uint32_t class_id) {
     uint32_t best = values->actions;
     for (uint32_t a = 0; a < values->actions; a++) {

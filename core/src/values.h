@@ -8,7 +8,7 @@
 typedef struct rlvc_values {
     float *q;        /* [classes_max][actions] Q(c, a) */
     float *reward;   /* [classes_max][actions] mean reward; the batch solvers' */
-    uint32_t *tried; /* [classes_max][actions] interactions behind Q(c, a) */
+    uint32_t *tried; /* [classes_max][actions] interactions behind Q(c, a); 0: untried */
     uint32_t *first; /* [classes_max * actions + 1] where the samples of (c, a) begin: see samples.h */
     float *value;    /* [classes_max] V(c) */
     uint8_t *policy; /* [classes_max] the greedy action of the last solution */
@@ -31,6 +31,9 @@ static inline size_t rlvc_values_pair(const rlvc_values *values, uint32_t class_
 
 /* Gives a new class what is known of the class that it was split from. O(actions). */
 void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_class);
+
+/* Makes every action of a class untried: the interactions behind its Q were not its own. O(actions). */
+void rlvc_values_forget(rlvc_values *values, uint32_t class_id);
 
 /* Is the pair part of the maximum over actions? O(1). */
 static inline int rlvc_values_counts(const rlvc_values *values, size_t pair) {

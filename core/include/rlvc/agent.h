@@ -56,8 +56,8 @@ typedef struct rlvc_config {
     uint32_t features_at_once; /* candidate features whose bit columns are held in memory together,
                                   [1, 64]; fewer cost time instead. Default 64, or the domain's
                                   features_max if that is known and less */
-    uint32_t min_samples;      /* fewer samples of a class and action than this are not tested for a
-                                  split, [2, 2^31 - 1]. Default 8 */
+    uint32_t min_samples;      /* a class with fewer samples than this (of the actions whose targets differ)
+                                  is not tested for a split, [2, 2^31 - 1]. Default 8 */
     uint32_t max_sweeps;       /* sweeps after which a batch solver stops unconverged, [1, 2^31 - 1].
                                   Default 10,000 */
     uint32_t seed;             /* of the exploration; any value. Default 1 */
@@ -70,9 +70,9 @@ typedef struct rlvc_config {
                                   maze; 0: it ends there. Default 0 */
     uint8_t reserved[3];       /* 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
-    float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.8 */
+    float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
     float alpha;               /* a split is kept if its p-value, corrected for the number of tests
-                                  tried, is below this, (0, 1]. Default 0.001 */
+                                  tried, is below this, (0, 1]. Default 0.005 */
     float tolerance;           /* a batch solver's values are within this of the fixed point, in units
                                   of reward, (0, RLVC_REWARD_MAX]; targets nearer than twice this
                                   count as equal under the residual criterion. Default 0.01 */
@@ -107,7 +107,7 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
                          features_at_once)                                                         \
     (RLVC_AGENT_FIXED_BYTES + RLVC_REPLAY_BYTES(capacity, percept_bytes) +                         \
      RLVC_TREE_BYTES(classes, feature_bytes) + RLVC_VALUES_BYTES(classes, actions) +               \
-     RLVC_SEARCH_BYTES(capacity, feature_bytes, features_at_once))
+     RLVC_SEARCH_BYTES(actions, capacity, feature_bytes, features_at_once))
 /* ... whose parts are: the ring's slots, one more than the capacity; */
 #define RLVC_REPLAY_BYTES(capacity, percept_bytes)                                                 \
     (RLVC_ROUND_UP_8(((size_t)(capacity) + 1u) * (percept_bytes)) +                                \
@@ -127,15 +127,16 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
      RLVC_ROUND_UP_8((size_t)(classes) * 4u) + RLVC_ROUND_UP_8((size_t)(classes) * 2u) +           \
      RLVC_ROUND_UP_8(classes) * 2u)
 /* and the samples, cutpoints and bit columns of the search for a split. */
-#define RLVC_SEARCH_BYTES(capacity, feature_bytes, features_at_once)                               \
-    (RLVC_ROUND_UP_8((size_t)(capacity) * 8u) +                                                    \
-     (((size_t)(capacity) + 63u) / 64u + 1u) * 8u +                                                \
-     RLVC_SEARCH_COLUMN_BYTES(capacity, features_at_once) +                                        \
+#define RLVC_SEARCH_BYTES(actions, capacity, feature_bytes, features_at_once)                      \
+    (RLVC_ROUND_UP_8((size_t)(capacity) * 8u) + RLVC_SEARCH_WORDS(actions, capacity) * 8u +        \
+     RLVC_SEARCH_COLUMN_BYTES(actions, capacity, features_at_once) +                               \
      RLVC_ROUND_UP_8((size_t)(features_at_once) * (feature_bytes)) +                               \
-     RLVC_ROUND_UP_8(feature_bytes) * 2u)
-#define RLVC_SEARCH_COLUMN_BYTES(capacity, features_at_once)                                       \
-    (((((size_t)(capacity) + 63u) / 64u | 1u) * (features_at_once) * 8u) > 2048u                   \
-         ? ((((size_t)(capacity) + 63u) / 64u | 1u) * (features_at_once) * 8u)                     \
+     RLVC_ROUND_UP_8(feature_bytes) * 2u + (size_t)(actions) * 16u +                               \
+     (size_t)(features_at_once) * 16u)
+#define RLVC_SEARCH_WORDS(actions, capacity) (((size_t)(capacity) + 63u * (size_t)(actions)) / 64u)
+#define RLVC_SEARCH_COLUMN_BYTES(actions, capacity, features_at_once)                              \
+    (((RLVC_SEARCH_WORDS(actions, capacity) | 1u) * (features_at_once) * 8u) > 2048u               \
+         ? ((RLVC_SEARCH_WORDS(actions, capacity) | 1u) * (features_at_once) * 8u)                 \
          : 2048u)
 
 /* Makes a new agent in the caller's block: one class that holds every percept, no interaction, step
@@ -248,13 +249,15 @@ RLVC_API rlvc_status rlvc_value(const rlvc_agent *agent, uint32_t class_id, floa
 /* One split of the tree, in the order in which they were made: split 0 is the root. Split j of class c
  * leaves the percepts without the feature in class c, and gives those with it the new class j + 1. */
 typedef struct rlvc_split {
-    uint32_t class_id;       /* the class that was split */
-    uint32_t step;           /* k at that time */
-    uint32_t action;         /* the action whose targets betrayed the aliasing */
-    uint32_t samples;        /* of that class and action */
-    uint32_t tests;          /* (feature, cutpoint) pairs tried: the correction of the p-value */
-    float score;             /* of the split, as config.score measures it */
-    float log_p;             /* natural logarithm of the corrected p-value */
+    uint32_t class_id;  /* the class that was split */
+    uint32_t step;      /* k at that time */
+    uint32_t action;    /* the action whose targets betrayed the aliasing, [0, actions), or `actions` if
+                           those of all actions did together */
+    uint32_t samples;   /* of that class and action, or of the class */
+    float log_tests;    /* natural logarithm of the number of tests that log_p is corrected by */
+    float score;        /* of the split, as config.score measures it (together: the mean over the
+                           samples; of chi-square too) */
+    float log_p;        /* natural logarithm of the corrected p-value */
 } rlvc_split;
 
 /* @param split, feature each optional; feature gets feature_bytes
