@@ -109,7 +109,8 @@ static int slot_is_sound(const rlvc_replay *replay, uint32_t position, uint32_t 
     if (replay->label[slot] != RLVC_NO_CLASS && replay->label[slot] >= classes)
         return 0;
     if (!(replay->flags[slot] & RLVC_SLOT_STORED))
-        return last || (position > 0 && has_interaction(replay, position + 1));
+        return (last && replay->open) ||
+               (position > 0 && rlvc_replay_linked(replay, rlvc_replay_slot(replay, position - 1)));
     if (replay->action[slot] >= actions)
         return 0;
     float reward = replay->reward[slot];

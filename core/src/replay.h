@@ -7,9 +7,9 @@
  * is no s', and p + 1 begins another episode. A truncated or torn episode ends with a slot that holds
  * its last s' and no interaction.
  *
- * Invariants: every slot with an interaction that was not terminated has a successor; two slots without
- * an interaction are never neighbours; position 0 holds an interaction or is the only slot; the current
- * percept, if there is one (open), is at the last position. */
+ * Invariants: every slot with an interaction that was not terminated has a successor; a slot without one
+ * is the s' of the slot before it, or the current percept; position 0 holds an interaction or is the only
+ * slot; the current percept, if there is one (open), is at the last position. */
 #ifndef RLVC_SRC_REPLAY_H
 #define RLVC_SRC_REPLAY_H
 
