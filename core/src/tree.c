@@ -81,36 +81,53 @@ uint32_t rlvc_tree_depth(const rlvc_tree *tree, uint32_t node) {
     return depth;
 }
 
-/* Is split j the history that its nodes tell: made of an older leaf, of the class that it names? */
+/* Was split j made of an older node, which leads to the two that it made? */
 static int split_is_sound(const rlvc_tree *tree, uint32_t j) {
     const rlvc_tree_split *split = &tree->split[j];
-    if (split->node > 2u * j || tree->node[split->node] != 2u * j + 1u)
-        return 0;
-    if (split->about.class_id > j)
-        return 0;
+    return split->node <= 2u * j && tree->node[split->node] == 2u * j + 1u &&
+           split->about.class_id <= j;
+}
+
+/* Is a node a leaf of some class, or the node of some split? With sound splits every way down the tree
+ * then leads to younger nodes, and ends. */
+static int node_is_sound(const rlvc_tree *tree, uint32_t node) {
+    if (rlvc_tree_is_leaf(tree, node))
+        return rlvc_tree_class(tree, node) < tree->classes;
+    uint32_t split = rlvc_tree_split_of(tree, node);
+    return split < tree->classes - 1u && tree->split[split].node == node;
+}
+
+/* Does the chain of a split's class lead to its node? */
+static int history_is_sound(const rlvc_tree *tree, uint32_t j) {
+    const rlvc_tree_split *split = &tree->split[j];
     uint32_t node = 2u * split->about.class_id;
     while (node < split->node && !rlvc_tree_is_leaf(tree, node))
         node = tree->node[node];
     return node == split->node;
 }
 
+/* In an order in which each loop may rely on those before it, so that no damage leads it astray. */
 int rlvc_tree_check(const rlvc_tree *tree) {
     if (tree->classes < 1 || tree->classes > tree->classes_max)
         return 0;
-    for (uint32_t j = 0; j + 1u < tree->classes; j++) {
+    uint32_t nodes = 2u * tree->classes - 1u, splits = tree->classes - 1u, depth = 0;
+    for (uint32_t j = 0; j < splits; j++) {
         if (!split_is_sound(tree, j))
             return 0;
     }
-    uint32_t depth = 0, leaves = 0;
-    for (uint32_t node = 0; node < 2u * tree->classes - 1u; node++) {
-        if (rlvc_tree_is_leaf(tree, node)) {
-            uint32_t class_id = rlvc_tree_class(tree, node);
-            if (class_id >= tree->classes || leaf_of(tree, class_id) != node)
-                return 0;
-            leaves++;
-        }
+    for (uint32_t node = 0; node < nodes; node++) {
+        if (!node_is_sound(tree, node))
+            return 0;
+    }
+    for (uint32_t j = 0; j < splits; j++) {
+        if (!history_is_sound(tree, j))
+            return 0;
+    }
+    for (uint32_t node = 0; node < nodes; node++) {
         uint32_t above = rlvc_tree_depth(tree, node);
         depth = above > depth ? above : depth;
+        if (rlvc_tree_is_leaf(tree, node) && leaf_of(tree, rlvc_tree_class(tree, node)) != node)
+            return 0;
     }
-    return leaves == tree->classes && depth == tree->depth;
+    return depth == tree->depth;
 }
