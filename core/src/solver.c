@@ -71,16 +71,28 @@ static void back_up(rlvc_solver *solver, const rlvc_solving *solving, rlvc_value
         end_sweep(solver, solving);
 }
 
-/* One unit of a sweep: adds a transition, or completes a pair. */
-static void sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
-    size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
-    if (solver->transition < values->first[pair + 1u]) {
-        const rlvc_sample *transition = &solving->transition[solver->transition++];
-        uint32_t next = transition->key; /* nothing is to be had after the end of an episode */
-        rlvc_sum_add(&solver->sum, next == RLVC_NO_CLASS ? 0.0f : values->value[next],
-                     transition->slot);
-        return;
+/* Adds the values of up to `budget` of the pair's transitions that are left. */
+static uint32_t add_transitions(rlvc_solver *solver, const rlvc_solving *solving,
+                                const rlvc_values *values, uint32_t end, uint32_t budget) {
+    rlvc_sum sum = solver->sum;
+    uint32_t from = solver->transition;
+    uint32_t to = end - from < budget ? end : from + budget;
+    for (uint32_t i = from; i < to; i++) {
+        uint32_t next = solving->transition[i].key; /* nothing is to be had after the end */
+        rlvc_sum_add(&sum, next == RLVC_NO_CLASS ? 0.0f : values->value[next],
+                     solving->transition[i].slot);
     }
+    solver->sum = sum;
+    solver->transition = to;
+    return to - from;
+}
+
+/* Part of a sweep: adds transitions, or completes a pair. */
+static uint32_t sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
+                      uint32_t budget) {
+    size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
+    if (solver->transition < values->first[pair + 1u])
+        return add_transitions(solver, solving, values, values->first[pair + 1u], budget);
     if (values->first[pair] < values->first[pair + 1u])
         values->q[pair] = values->reward[pair] + solving->discount * rlvc_sum_mean(&solver->sum);
     else if (values->tried[pair] == 0)
@@ -88,6 +100,7 @@ static void sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values 
     rlvc_sum_clear(&solver->sum);
     if (++solver->action == values->actions)
         back_up(solver, solving, values);
+    return 1;
 }
 
 /* Makes the policy of one class greedy. An action must be better than the present one by more than what
@@ -115,11 +128,13 @@ static void improve(rlvc_solver *solver, const rlvc_solving *solving, rlvc_value
 uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
                           uint32_t budget) {
     uint32_t used = 0;
-    for (; used < budget && !solver->done; used++) {
-        if (solver->phase == SWEEP)
-            sweep(solver, solving, values);
-        else
+    while (used < budget && !solver->done) {
+        if (solver->phase == SWEEP) {
+            used += sweep(solver, solving, values, budget - used);
+        } else {
             improve(solver, solving, values);
+            used++;
+        }
     }
     return used;
 }

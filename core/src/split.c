@@ -100,33 +100,40 @@ static void end_marking(rlvc_search *search, const rlvc_searching *searching) {
         enter(search, searching->domain->oracle ? ASK : PROPOSE);
 }
 
-/* Marks whether a cutpoint lies before sample `at`. Targets are gathered into clusters from the lowest up
- * as aliasing.h tells them apart. */
-static void mark(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_workspace *space = searching->space;
-    rlvc_group *group = &space->group[search->action];
-    uint32_t at = search->at;
-    if (at == size_of(group)) {
-        search->groups += group->cuts > 0;
-        search->samples += group->cuts > 0 ? at : 0;
-        if (++search->action == space->actions)
-            end_marking(search, searching);
-        else
-            open_sort(search, space);
-        return;
+/* Goes on to the next group. */
+static void close_group(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_group *group = &searching->space->group[search->action];
+    search->groups += group->cuts > 0;
+    search->samples += group->cuts > 0 ? size_of(group) : 0;
+    if (++search->action == searching->space->actions)
+        end_marking(search, searching);
+    else
+        open_sort(search, searching->space);
+}
+
+/* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered into
+ * clusters from the lowest up as aliasing.h tells them apart. */
+static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint32_t budget) {
+    rlvc_group *group = &searching->space->group[search->action];
+    const rlvc_sample *sample = search->view.sample + group->begin;
+    uint64_t *cuts = searching->space->cuts + group->word;
+    uint32_t from = search->at, left = size_of(group) - from;
+    uint32_t to = from + (left < budget ? left : budget);
+    for (uint32_t at = from; at < to; at++) {
+        if (at % 64u == 0)
+            cuts[at / 64u] = 0;
+        if (at == 0) {
+            search->lowest = sample[at].key;
+        } else if (rlvc_aliasing_distinct(searching->aliasing, search->lowest, sample[at].key)) {
+            cuts[at / 64u] |= (uint64_t)1 << at % 64u;
+            group->cuts++;
+            search->lowest = sample[at].key;
+        }
     }
-    uint64_t *word = &space->cuts[group->word + at / 64u];
-    uint32_t key = search->view.sample[group->begin + at].key;
-    if (at % 64u == 0)
-        *word = 0;
-    if (at == 0) {
-        search->lowest = key;
-    } else if (rlvc_aliasing_distinct(searching->aliasing, search->lowest, key)) {
-        *word |= (uint64_t)1 << at % 64u;
-        group->cuts++;
-        search->lowest = key;
-    }
-    search->at++;
+    search->at = to;
+    if (to == size_of(group))
+        close_group(search, searching);
+    return to - from;
 }
 
 /* ------------------------------------------------------------------ the default oracle */
@@ -224,7 +231,7 @@ static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, 
 static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *searching,
                          const rlvc_cut *cut, uint32_t count) {
     uint32_t above = cut->present - cut->present_below;
-    rlvc_single weighed = {0.0f, cut->score, 0.0f, search->action};
+    rlvc_single weighed = {0.0f, cut->score, 0.0f, search->action, cut->below};
     weighed.evidence = searching->score == RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
     (void)rlvc_chi2_table(cut->present_below, cut->below - cut->present_below, above,
                           count - cut->below - above, &weighed.statistic);
@@ -352,7 +359,7 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
             enter(search, MARK);
         return RLVC_OK;
     case MARK:
-        mark(search, searching);
+        *used = mark(search, searching, budget);
         return RLVC_OK;
     case PROPOSE:
         return propose(search, searching);

@@ -49,6 +49,7 @@ typedef struct rlvc_single {
     float score;
     float statistic;
     uint32_t action;
+    uint32_t below; /* samples of the group below its cutpoint */
 } rlvc_single;
 
 /* The memory of a search. */

@@ -9,6 +9,10 @@ extern "C" {
 #include "rlvc/rlvc.h"
 #include "score.h"
 #include "sort.h"
+#include "solver.h"
+#include "split.h"
+#include "tree.h"
+#include "values.h"
 }
 
 #endif

@@ -55,21 +55,36 @@ void scan(const uint64_t *column, const uint64_t *cuts, uint32_t count, uint32_t
 Winner search(const std::vector<float> &target, const std::vector<unsigned char> &percepts,
               uint32_t percept_bytes, uint32_t bits) {
     rlvc_domain domain;
+    rlvc_config config;
     rlvc_bits_domain(bits, &domain);
-    std::vector<rlvc_sample> samples = samples_of(target);
-    const auto count = static_cast<uint32_t>(samples.size());
-    const rlvc_samples view = {percepts.data(), samples.data(), percept_bytes, count};
-    const size_t stride = (samples.size() + 63) / 64 | 1; // odd: columns on other lines of a cache
-    std::vector<uint64_t> cuts;
-    std::vector<uint64_t> columns;
+    rlvc_config_default(&config, &domain, 1);
+    config.capacity = static_cast<uint32_t>(target.size());
+
+    rlvc_workspace space;
+    rlvc_arena arena = {nullptr, 0};
+    rlvc_workspace_carve(&space, &arena, &config, domain.feature_bytes);
+    std::vector<uint64_t> block(arena.used / sizeof(uint64_t));
+    arena = {reinterpret_cast<unsigned char *>(block.data()), 0};
+    rlvc_workspace_carve(&space, &arena, &config, domain.feature_bytes);
+    for (uint32_t i = 0; i < config.capacity; i++)
+        space.sample[i] = {rlvc_key_of_target(target[i]), i};
+
+    rlvc_replay replay = {};
+    replay.percept = const_cast<unsigned char *>(percepts.data());
+    replay.percept_bytes = percept_bytes;
+    rlvc_aliasing aliasing = {};
+    const rlvc_searching searching = {&space,  &replay, &aliasing,
+                                      &domain, config.min_samples, config.score};
+    const uint32_t first[2] = {0, config.capacity};
+    rlvc_search search;
+    rlvc_search_begin(&search, &searching, first);
+    for (uint32_t used; !search.done;)
+        rlvc_search_step(&search, &searching, RLVC_BUDGET_UNBOUNDED, &used);
+    rlvc_split about;
+    const void *feature = rlvc_search_result(&search, &space, &about);
     Winner winner = {};
-    sort(samples);
-    mark(samples, cuts);
-    for (uint32_t first = 0; first < bits; first += RLVC_DETECT_FEATURES) {
-        uint32_t written = detect(domain, view, first, stride, columns);
-        for (uint32_t j = 0; j < written; j++)
-            scan(&columns[stride * j], cuts.data(), count, first + j, winner);
-    }
+    if (feature)
+        winner = {{about.score, search.alone.below, 0, 0}, rlvc_bits_feature(feature)};
     return winner;
 }
 

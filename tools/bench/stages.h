@@ -31,7 +31,8 @@ uint32_t detect(const rlvc_domain &domain, const rlvc_samples &samples, uint32_t
 void scan(const uint64_t *column, const uint64_t *cuts, uint32_t count, uint32_t feature,
           Winner &winner);
 
-// All of it, on percepts of bits.
+// All of it, on percepts of bits, by the core's own search. Of the winner's cut only the score and
+// `below` are known.
 Winner search(const std::vector<float> &target, const std::vector<unsigned char> &percepts,
               uint32_t percept_bytes, uint32_t bits);
 
