@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: MIT */
+/* The class-level model against plain counting, and the batch solvers against value iteration in
+ * double over dense tables. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "history.h"
+#include "model.h"
+#include "solver.h"
+
+#define CLASSES 7u
+#define PAIRS (CLASSES * HISTORY_ACTIONS)
+#define CAPACITY 400u
+#define NOTHING -1e300
+
+static history list;
+static rlvc_replay replay;
+static rlvc_values values;
+static rlvc_aliasing aliasing;
+static rlvc_sample sample[CAPACITY];
+static uint64_t values_block[256];
+static uint64_t scratch[RLVC_SORT_SCRATCH_BYTES / sizeof(uint64_t)];
+
+/* The same by plain counting: column CLASSES is where an episode terminated. */
+static double reward[PAIRS], transitions[PAIRS][CLASSES + 1u], tried[PAIRS];
+
+static uint32_t class_of(uint32_t percept) {
+    return (percept * 2654435761u >> 8) % CLASSES;
+}
+
+static void make_values(uint8_t untried) {
+    rlvc_arena arena = {(unsigned char *)values_block, 0};
+    rlvc_config config;
+    memset(&config, 0, sizeof config);
+    config.classes = CLASSES;
+    config.actions = HISTORY_ACTIONS;
+    config.untried = untried;
+    config.optimistic_value = 30.0f;
+    rlvc_values_carve(&values, &arena, &config);
+    assert_true(arena.used <= sizeof values_block);
+    rlvc_values_clear(&values);
+    for (uint32_t c = 1; c < CLASSES; c++)
+        rlvc_values_inherit(&values, c, 0);
+}
+
+/* `interactions` random ones on a small ring; class 3 never sees action 1 if `gaps`. */
+static void make_database(uint32_t seed, uint32_t interactions, int gaps) {
+    rlvc_rng rng;
+    rlvc_rng_seed(&rng, seed);
+    history_init(&list, &replay, CAPACITY);
+    for (uint32_t i = 0; i < interactions; i++)
+        history_do_random(&list, &replay, &rng, 4u);
+    for (uint32_t position = 0; position < replay.count; position++) {
+        uint32_t slot = rlvc_replay_slot(&replay, position);
+        replay.label[slot] = (uint16_t)class_of(history_percept_at(&replay, position));
+        if (gaps && replay.label[slot] == 3u && replay.action[slot] == 1u)
+            replay.action[slot] = 2;
+    }
+    aliasing.returns.replay = &replay;
+    aliasing.returns.end = rlvc_replay_freeze(&replay);
+    aliasing.values = &values;
+    aliasing.kind = RLVC_KEY_SUCCESSOR;
+}
+
+static void count_plainly(void) {
+    memset(reward, 0, sizeof reward);
+    memset(transitions, 0, sizeof transitions);
+    memset(tried, 0, sizeof tried);
+    for (uint32_t position = 0; position < aliasing.returns.end; position++) {
+        uint32_t slot = rlvc_replay_slot(&replay, position);
+        if (!(replay.flags[slot] & RLVC_SLOT_STORED))
+            continue;
+        uint32_t pair = replay.label[slot] * HISTORY_ACTIONS + replay.action[slot];
+        uint32_t next = rlvc_replay_linked(&replay, slot)
+                            ? replay.label[rlvc_replay_next(&replay, slot)]
+                            : CLASSES;
+        reward[pair] += (double)replay.reward[slot];
+        transitions[pair][next] += 1.0;
+        tried[pair] += 1.0;
+    }
+}
+
+static void build_model(uint32_t budget) {
+    rlvc_model model;
+    rlvc_model_begin(&model, PAIRS);
+    while (!model.done) {
+        uint32_t used = rlvc_model_step(&model, &aliasing, &values, sample, scratch, budget);
+        assert_in_range(used, 1, budget);
+    }
+}
+
+static void test_model(void **state) {
+    (void)state;
+    const uint32_t budgets[] = {RLVC_BUDGET_MIN, 97, RLVC_BUDGET_UNBOUNDED};
+    for (uint32_t i = 0; i < 12u; i++) {
+        make_values(RLVC_UNTRIED_EXCLUDED);
+        make_database(i, 100u * i, 1);
+        build_model(budgets[i % 3u]);
+        count_plainly();
+        for (uint32_t pair = 0; pair < PAIRS; pair++) {
+            double left = tried[pair];
+            uint32_t last = 0;
+            for (uint32_t t = values.first[pair]; t < values.first[pair + 1u]; t++) {
+                uint32_t next = sample[t].key == RLVC_NO_CLASS ? CLASSES : sample[t].key;
+                assert_true((double)sample[t].slot == transitions[pair][next]);
+                assert_true(t == values.first[pair] || sample[t].key > last);
+                last = sample[t].key;
+                left -= (double)sample[t].slot;
+            }
+            assert_true(left == 0.0);
+            assert_true((double)values.tried[pair] == tried[pair]);
+            if (tried[pair] > 0.0)
+                assert_true(fabs((double)values.reward[pair] - reward[pair] / tried[pair]) < 1e-5);
+        }
+    }
+}
+
+/* V by value iteration in double, to the last bit. */
+static void solve_plainly(double v[CLASSES], double discount) {
+    for (int sweep = 0; sweep < 20000; sweep++)
+        for (uint32_t c = 0; c < CLASSES; c++) {
+            double best = NOTHING;
+            for (uint32_t a = 0; a < HISTORY_ACTIONS; a++) {
+                uint32_t pair = c * HISTORY_ACTIONS + a;
+                double q = 0.0;
+                for (uint32_t next = 0; next < CLASSES; next++)
+                    q += transitions[pair][next] * v[next];
+                q = (reward[pair] + discount * q) / (tried[pair] > 0.0 ? tried[pair] : 1.0);
+                if (tried[pair] > 0.0 || values.optimistic)
+                    best = fmax(best, tried[pair] > 0.0 ? q : (double)values.optimistic_value);
+            }
+            v[c] = best == NOTHING ? v[c] : best;
+        }
+}
+
+static rlvc_solver solve(uint8_t kind, float discount, float tolerance, uint32_t sweeps,
+                         uint32_t slice) {
+    rlvc_solver solver;
+    const rlvc_solving solving = {sample, CLASSES, sweeps, discount, tolerance};
+    rlvc_solver_begin(&solver, kind);
+    while (!solver.done)
+        assert_in_range(rlvc_solver_step(&solver, &solving, &values, slice), 1, slice);
+    return solver;
+}
+
+static void check_solution(uint32_t seed, uint8_t kind, uint8_t untried, float discount) {
+    double v[CLASSES] = {0.0};
+    float first[CLASSES];
+    const float tolerance = 1e-3f;
+    for (uint32_t slice = 1; slice < 1000u; slice = slice * 9u + 1u) {
+        make_values(untried);
+        build_model(RLVC_BUDGET_MIN);
+        rlvc_solver solver = solve(kind, discount, tolerance, 100000, slice);
+        assert_true(solver.sweeps < 100000);
+        memcpy(slice == 1u ? first : values.value, values.value, sizeof first);
+        assert_memory_equal(values.value, first, sizeof first);
+    }
+    solve_plainly(v, (double)discount);
+    for (uint32_t c = 0; c < CLASSES; c++) {
+        double error = fabs((double)values.value[c] - v[c]);
+        double horizon = 1.0 / (1.0 - (double)discount);
+        double allowed = (double)tolerance + 4e-7 * fabs(v[c]) * (horizon + 10.0);
+        /* An action that is worse by no more than the tolerance stays, at each step of the way. */
+        if (kind == RLVC_SOLVER_POLICY_ITERATION)
+            allowed += (double)tolerance * horizon;
+        if (!(error <= allowed))
+            fail_msg("seed %u, solver %u, untried %u, discount %g: V(%u) is %.9g, not %.9g", seed,
+                     kind, untried, (double)discount, c, (double)values.value[c], v[c]);
+    }
+}
+
+static void test_solvers(void **state) {
+    (void)state;
+    const float discounts[] = {0.0f, 0.5f, 0.9f, 0.99f};
+    for (uint32_t seed = 1; seed < 6u; seed++) {
+        make_values(RLVC_UNTRIED_EXCLUDED);
+        make_database(seed, seed == 1 ? 12u : 80u * seed, 1);
+        count_plainly();
+        for (int i = 0; i < 16; i++)
+            check_solution(seed, (uint8_t)(i % 2), (uint8_t)(i / 2 % 2), discounts[i / 4]);
+    }
+}
+
+/* Without discount only what episodes bound is bounded; here all of them end. */
+static void test_no_discount(void **state) {
+    (void)state;
+    for (uint8_t kind = 0; kind < 2u; kind++) {
+        double v[CLASSES] = {0.0};
+        make_values(RLVC_UNTRIED_EXCLUDED);
+        make_database(9, 300, 0);
+        for (uint32_t slot = 0; slot < replay.slots; slot++)
+            replay.reward[slot] = -1.0f;
+        count_plainly();
+        build_model(RLVC_BUDGET_UNBOUNDED);
+        rlvc_solver solver = solve(kind, 1.0f, 1e-4f, 5000, 7);
+        solve_plainly(v, 1.0);
+        assert_true(solver.residual <= 1e-4f);
+        for (uint32_t c = 0; c < CLASSES; c++)
+            assert_true(fabs((double)values.value[c] - v[c]) < 0.02);
+    }
+}
+
+/* A tolerance that binary32 cannot reach, and sweeps that run out. */
+static void test_the_end(void **state) {
+    (void)state;
+    make_values(RLVC_UNTRIED_EXCLUDED);
+    make_database(4, 300, 0);
+    build_model(RLVC_BUDGET_UNBOUNDED);
+    for (uint8_t kind = 0; kind < 2u; kind++) {
+        assert_in_range(solve(kind, 0.99f, 1e-30f, INT32_MAX, 1000).sweeps, 10, 5000);
+        for (uint32_t sweeps = 1; sweeps < 5u; sweeps++) {
+            make_values(RLVC_UNTRIED_EXCLUDED);
+            build_model(RLVC_BUDGET_UNBOUNDED);
+            rlvc_solver solver = solve(kind, 0.99f, 1e-3f, sweeps, 1);
+            assert_int_equal(solver.sweeps, sweeps);
+            assert_true(solver.residual > 0.0f);
+        }
+    }
+}
+
+/* What was learnt from interactions that have left the ring stays. */
+static void test_forgotten_interactions(void **state) {
+    (void)state;
+    make_values(RLVC_UNTRIED_EXCLUDED);
+    history_init(&list, &replay, CAPACITY);
+    aliasing.returns.end = rlvc_replay_freeze(&replay);
+    values.q[4] = 12.0f;
+    values.tried[4] = 3;
+    build_model(RLVC_BUDGET_MIN);
+    for (uint8_t kind = 0; kind < 2u; kind++) {
+        solve(kind, 0.9f, 1e-3f, 100, 3);
+        assert_float_equal(values.q[4], 12.0f, 0.0f);
+        assert_int_equal(values.tried[4], 3);
+        assert_float_equal(values.value[1], 12.0f, 0.0f);
+        assert_float_equal(values.value[2], 0.0f, 0.0f);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_model),
+        cmocka_unit_test(test_solvers),
+        cmocka_unit_test(test_no_discount),
+        cmocka_unit_test(test_the_end),
+        cmocka_unit_test(test_forgotten_interactions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
