@@ -157,6 +157,7 @@ rlvc_status rlvc_bits_domain(uint32_t bits, rlvc_domain *domain) {
         .percept_bytes = RLVC_BITS_PERCEPT_BYTES(bits),
         .feature_bytes = RLVC_BITS_FEATURE_BYTES,
         .features_max = bits,
+        .kind = RLVC_DOMAIN_BITS,
         .exhibits = exhibits,
         .candidates = candidates,
         .detect = detect,

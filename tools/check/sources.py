@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # The floor of each file of core/src, by the name without .c or .h. A file includes lower floors and
 # its own header.
 FLOORS = {
-    "agent": 7, "config": 7, "learn": 7, "print": 7,
+    "agent": 7, "config": 7, "export": 7, "learn": 7, "print": 7,
     "state": 6,
     "model": 5,
     "samples": 4, "split": 4,

@@ -39,6 +39,10 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DETECT_SAMPLES 64u
 #define RLVC_DETECT_FEATURES 64u
 
+/* domain.kind: what a ready-made domain is known by where its features must be understood (exporting). */
+#define RLVC_DOMAIN_OWN 0u /* yours */
+#define RLVC_DOMAIN_BITS 1u
+
 typedef struct rlvc_domain {
     void *ctx; /* handed to every callback, untouched */
 
@@ -47,6 +51,7 @@ typedef struct rlvc_domain {
     uint32_t feature_bytes; /* size of a feature's record, [1, 2^16], aligned likewise */
     uint32_t features_max;  /* how many candidates there can be for one class, or 0 if not known;
                                only sizes memory */
+    uint32_t kind;          /* RLVC_DOMAIN_* */
 
     /* Feature detector: *present becomes 1 if the percept exhibits the feature, else 0. Required.
      * Acting calls it once per level of the tree. */

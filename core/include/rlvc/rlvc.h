@@ -7,6 +7,7 @@
 #include "rlvc/bits.h"
 #include "rlvc/chi2.h"
 #include "rlvc/domain.h"
+#include "rlvc/export.h"
 #include "rlvc/status.h"
 
 #define RLVC_VERSION_MAJOR 0
