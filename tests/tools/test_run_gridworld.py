@@ -1,0 +1,391 @@
+# SPDX-License-Identifier: MIT
+"""The command line of run_gridworld: what it prints, writes, refuses and leaves behind.
+
+RLVC_RUN_GRIDWORLD is the path of the program. Short runs; none depends on the clock.
+"""
+import itertools
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+from pathlib import Path
+
+import pytest
+
+PROGRAM = os.environ["RLVC_RUN_GRIDWORLD"]
+MAZES = Path(__file__).resolve().parents[2] / "examples" / "gridworld" / "mazes"
+ACTIONS = {"up": (0, -1), "right": (1, 0), "down": (0, 1), "left": (-1, 0)}
+ENVIRONMENT = {**os.environ, "LC_ALL": "C.UTF-8"}
+
+
+def run(*arguments, cwd, env=None, **more):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, env=env or ENVIRONMENT,
+                          capture_output=True, text=True, timeout=300, **more)
+
+
+def report(*arguments, cwd):
+    """The JSON report of a run that must succeed."""
+    done = run("binary", *arguments, "--json", "report.json", cwd=cwd)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    return json.loads((cwd / "report.json").read_text())
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+# ------------------------------------------------------------------------- asking
+
+@pytest.mark.parametrize("arguments", [["--help"], ["binary", "--help"]])
+def test_help(tmp_path, arguments):
+    done = run(*arguments, cwd=tmp_path)
+    assert done.returncode == 0 and done.stderr == ""
+    assert "binary" in done.stdout
+
+
+def test_help_names_every_option(tmp_path):
+    text = run("binary", "--help", cwd=tmp_path).stdout
+    for option in ("criterion interactions steps gamma epsilon alpha seed runs maze slip distractors "
+                   "classes capacity json dot help version").split():
+        assert re.search(rf"--{option}\b", text), option
+
+
+@pytest.mark.parametrize("arguments", [["--version"], ["binary", "--version"]])
+def test_version(tmp_path, arguments):
+    done = run(*arguments, cwd=tmp_path)
+    assert done.returncode == 0 and done.stderr == ""
+    assert re.fullmatch(r"run_gridworld \d+\.\d+\.\d+\n", done.stdout)
+
+
+# ------------------------------------------------------------------------- refusing
+
+def check_refused(done, *parts):
+    assert done.returncode == 2
+    assert done.stderr.startswith("run_gridworld: ")
+    assert done.stderr.count("\n") == 1 and done.stderr.endswith("\n"), done.stderr
+    for part in parts:
+        assert part in done.stderr
+
+
+@pytest.mark.parametrize("arguments, parts", [
+    ([], ["binary"]),
+    (["tilde"], ["tilde"]),
+    (["binary", "--colour"], ["--colour"]),
+    (["binary", "more"], ["more"]),
+    (["binary", "--gamma"], ["--gamma: takes one value"]),
+    (["binary", "--runs", "2", "--runs", "3"], ["--runs: takes one value, once"]),
+    (["binary", "--gamma", "1"], ["--gamma", "'1'", "[0, 1)"]),
+    (["binary", "--gamma", "0.99999999999"], ["--gamma"]),  # is 1 in binary32
+    (["binary", "--gamma", "-0.1"], ["--gamma"]),
+    (["binary", "--gamma", "nan"], ["--gamma", "nan"]),
+    (["binary", "--gamma", "0.9x"], ["--gamma", "0.9x"]),
+    (["binary", "--epsilon", "1.1"], ["--epsilon", "[0, 1]"]),
+    (["binary", "--epsilon", "NaN"], ["--epsilon"]),
+    (["binary", "--epsilon", "inf"], ["--epsilon"]),
+    (["binary", "--alpha", "0"], ["--alpha", "(0, 1]"]),
+    (["binary", "--alpha", "1e-60"], ["--alpha"]),  # is 0 in binary32
+    (["binary", "--alpha", "nan"], ["--alpha"]),
+    (["binary", "--slip", "2"], ["--slip"]),
+    (["binary", "--slip", "nan"], ["--slip"]),
+    (["binary", "--slip", ""], ["--slip"]),
+    (["binary", "--criterion", "best"], ["--criterion", "best", "returns", "residual"]),
+    (["binary", "--interactions", "0"], ["--interactions"]),
+    (["binary", "--interactions", "-5"], ["--interactions", "-5"]),
+    (["binary", "--interactions", "1e3"], ["--interactions", "1e3"]),
+    (["binary", "--interactions", "2147483648"], ["--interactions"]),
+    (["binary", "--interactions", "99999999999999999999999"], ["--interactions"]),
+    (["binary", "--steps", "0"], ["--steps"]),
+    (["binary", "--steps", "20", "--interactions", "10"], ["--steps", "10"]),
+    (["binary", "--seed", "4294967296"], ["--seed"]),
+    (["binary", "--seed", "one"], ["--seed", "one"]),
+    (["binary", "--runs", "0"], ["--runs"]),
+    (["binary", "--classes", "0"], ["--classes"]),
+    (["binary", "--classes", "65536"], ["--classes"]),
+    (["binary", "--capacity", "0"], ["--capacity"]),
+    (["binary", "--distractors", "1025"], ["--distractors"]),
+    (["binary", "--distractors", "1018"], ["--distractors", "1017"]),
+    (["binary", "--runs", "2", "--dot", "tree.dot"], ["--dot", "--runs"]),
+    (["binary", "--json", "same", "--dot", "same"], ["--dot", "--json", "same"]),
+    (["binary", "--json", ""], ["--json"]),
+    (["binary", "--maze", "absent.txt"], ["--maze", "absent.txt", "No such file"]),
+    (["binary", "--maze", "."], ["--maze", "'.'", "directory"]),
+    (["binary", "--json", "absent/report.json"], ["--json", "absent/report.json", "No such file"]),
+    (["binary", "--dot", "absent/tree.dot"], ["--dot", "absent/tree.dot"]),
+    (["binary", "--json", "/"], ["--json", "'/'", "directory"]),
+])
+def test_impossible_options(tmp_path, arguments, parts):
+    done = run(*arguments, cwd=tmp_path)
+    check_refused(done, *parts)
+    assert done.stdout == "", "it is said before the work begins"
+    assert files(tmp_path) == []
+
+
+@pytest.mark.parametrize("text, place", [
+    ("", "maze.txt: "),
+    ("..\n..\n", "maze.txt: "),
+    ("..\n.x\n.*\n", "maze.txt:2:2: "),
+    ("...\n.*\n", "maze.txt:2:3: "),
+    ("..*\n###\n#.#\n", "maze.txt:3:2: "),
+    ("." * 257 + "*\n", "maze.txt:1:257: "),
+    ("*." + "\n.." * 300, "maze.txt:257:1: "),
+    ("\x00\x01", "maze.txt:1:1: "),
+])
+def test_broken_mazes(tmp_path, text, place):
+    (tmp_path / "maze.txt").write_text(text)
+    done = run("binary", "--maze", "maze.txt", "--json", "report.json", cwd=tmp_path)
+    check_refused(done, place)
+    assert done.stdout == ""
+    assert files(tmp_path) == ["maze.txt"]
+
+
+def test_full_tree(tmp_path):
+    done = run("binary", "--classes", "8", "--json", "report.json", "--dot", "tree.dot",
+               cwd=tmp_path)
+    check_refused(done, "tree is full", "8 classes", "--classes", "seed 1")
+    assert files(tmp_path) == []
+
+
+def test_no_room_to_write(tmp_path):
+    if not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full here")
+    done = run("binary", "--interactions", "100", "--json", "/dev/full", cwd=tmp_path)
+    check_refused(done, "--json", "/dev/full", "No space left")
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([PROGRAM, "binary", "--json", "report.json"], cwd=tmp_path,
+                              stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
+    check_refused(done, "standard output", "No space left")
+    assert files(tmp_path) == []
+
+
+def test_nobody_reads(tmp_path):
+    read_end, write_end = os.pipe()
+    os.close(read_end)
+    done = subprocess.run([PROGRAM, "binary", "--json", "report.json"], cwd=tmp_path,
+                          stdout=write_end, stderr=subprocess.PIPE, text=True, timeout=300)
+    os.close(write_end)
+    check_refused(done, "standard output")
+    assert files(tmp_path) == []
+
+
+# ------------------------------------------------------------------------- interrupting
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupt(tmp_path, number):
+    (tmp_path / "report.json").write_text("the report of before")
+    arguments = [PROGRAM, "binary", "--criterion", "returns", "--steps", "1000000",
+                 "--json", "report.json", "--dot", "tree.dot"]
+    with subprocess.Popen(arguments, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True, env=ENVIRONMENT) as program:
+        rows = (line for line in program.stdout if re.match(r" *\d+ +[\d,]+ +\d+ +\d+ ", line))
+        next(rows)  # a learning step is done, more are to come
+        program.send_signal(number)
+        _, errors = program.communicate(timeout=300)
+    assert program.returncode == 128 + number
+    assert re.fullmatch(r"run_gridworld: interrupted after \d+ interactions and \d+ of 1000000 "
+                        r"learning steps of the run with seed 1; nothing was written\n", errors)
+    assert files(tmp_path) == ["report.json"]
+    assert (tmp_path / "report.json").read_text() == "the report of before"
+
+
+# ------------------------------------------------------------------------- reporting
+
+def neighbour(maze, x, y, step):
+    to_x, to_y = x + step[0], y + step[1]
+    inside = 0 <= to_x < len(maze[0]) and 0 <= to_y < len(maze)
+    return (to_x, to_y) if inside and maze[to_y][to_x] != "#" else (x, y)
+
+
+def optimal_actions(maze, gamma, slip):
+    """The optimal actions of each free cell, by plain value iteration."""
+    free = [(x, y) for y, row in enumerate(maze) for x, sign in enumerate(row) if sign == "."]
+    value = dict.fromkeys(free, 0.0)
+
+    def gain(cell, step):
+        x, y = neighbour(maze, *cell, step)
+        return 100.0 if maze[y][x] == "*" else -1.0 + gamma * value[x, y]
+
+    def q(cell, action):
+        others = [gain(cell, step) for name, step in ACTIONS.items() if name != action]
+        return (1.0 - slip) * gain(cell, ACTIONS[action]) + slip * sum(others) / 3.0
+
+    for _ in range(400):
+        value = {cell: max(q(cell, action) for action in ACTIONS) for cell in free}
+    return {cell: {a for a in ACTIONS if q(cell, a) >= value[cell] - 1e-7} for cell in free}
+
+
+def check_run(run_report, gamma=0.9, slip=0.0):
+    maze = run_report["maze"]
+    best = optimal_actions(maze, gamma, slip)
+    actions, classes = run_report["cell_actions"], run_report["cell_classes"]
+    assert len(actions) == len(classes) == len(maze)
+    optimal = 0
+    for y, row in enumerate(maze):
+        assert len(actions[y]) == len(classes[y]) == len(row)
+        for x, sign in enumerate(row):
+            if sign == ".":
+                optimal += actions[y][x] in best[x, y]
+                assert classes[y][x] is None or 0 <= classes[y][x] < run_report["classes"]
+            else:
+                assert actions[y][x] is None and classes[y][x] is None
+    assert run_report["cells"] == len(best)
+    assert run_report["optimal_cells"] == optimal <= run_report["near_optimal_cells"] <= len(best)
+    check_history(run_report)
+
+
+def check_history(run_report):
+    history = run_report["history"]
+    assert [step["step"] for step in history] == list(range(len(history)))
+    assert history[-1]["optimal_cells"] == run_report["optimal_cells"]
+    assert history[-1]["interactions"] == run_report["interactions"]
+    assert history[-1]["classes"] == run_report["classes"]
+    assert 1 + sum(step["splits"] for step in history) == run_report["classes"]
+    splitting = [step["step"] for step in history if step["splits"]]
+    assert run_report["last_split_step"] == max(splitting, default=0)
+    all_optimal = [step["optimal_cells"] == run_report["cells"] for step in history]
+    first = next((s["interactions"] for s, o in zip(history, all_optimal) if o), None)
+    assert run_report["interactions_to_first_optimal"] == first
+    tail = list(itertools.takewhile(lambda pair: pair[1], zip(history[::-1], all_optimal[::-1])))
+    stays = tail[-1][0]["interactions"] if tail else None
+    assert run_report["interactions_to_optimal"] == stays
+
+
+def test_report_of_one_run(tmp_path):
+    made = report("--seed", "7", cwd=tmp_path)
+    assert made["version"] == 1 and made["kind"] == "run_gridworld binary"
+    assert made["seed"] == made["options"]["seed"] == 7
+    assert made["options"]["gamma"] == 0.9 and made["options"]["maze"] is None
+    assert made["percept"]["bits"] == 18
+    assert made["percept"]["x_bits"] == [0, 1, 2, 3] and made["percept"]["y_bits"] == [15, 16, 17]
+    assert "runs" not in made
+    assert made["maze"] == (MAZES / "sutton.txt").read_text().split()
+    assert made["cells"] == 46
+    assert isinstance(made["tree"], dict)
+    check_run(made)
+
+
+def test_default_run_learns_the_maze(tmp_path):
+    made = report(cwd=tmp_path)
+    assert made["optimal_cells"] == 46
+    assert made["bits_used"] == [0, 1, 2, 3, 15, 16, 17] and made["distractors_used"] == 0
+    assert made["memory_bytes"] <= 40 * 1024
+    assert made["interactions_to_optimal"] <= made["interactions"] == 6000
+
+
+def test_returns_criterion(tmp_path):
+    made = report("--criterion", "returns", "--interactions", "2000", "--steps", "4", cwd=tmp_path)
+    assert made["interactions"] == 8000 and len(made["history"]) == 4
+    check_run(made)
+
+
+def test_report_of_several_runs(tmp_path):
+    made = report("--runs", "3", "--seed", "5", cwd=tmp_path)
+    assert [one["seed"] for one in made["runs"]] == [5, 6, 7]
+    for one in made["runs"]:
+        check_run(one)
+    alone = report("--seed", "6", cwd=tmp_path)
+    of_three = made["runs"][1]
+    assert {name: alone[name] for name in of_three if name != "seconds"} == \
+           {name: of_three[name] for name in of_three if name != "seconds"}
+
+
+def test_maze_of_a_file_with_slip(tmp_path):
+    (tmp_path / "maze.txt").write_text("....\n.##.\n..#*\n")
+    made = report("--maze", "maze.txt", "--slip", "0.2", "--distractors", "3", "--gamma", "0.8",
+                  cwd=tmp_path)
+    assert made["percept"]["bits"] == 2 + 3 + 2
+    assert made["options"]["maze"] == "maze.txt"
+    check_run(made, gamma=0.8, slip=0.2)
+
+
+def without_time(made):
+    return {name: value for name, value in made.items() if name != "seconds"}
+
+
+def test_same_seed_same_report(tmp_path):
+    first, again, other = (report("--seed", seed, "--interactions", "2000", cwd=tmp_path)
+                           for seed in ("3", "3", "4"))
+    assert without_time(first) == without_time(again)
+    assert first["tree"] != other["tree"]
+
+
+def test_built_in_maze_is_the_file(tmp_path):
+    built_in = without_time(report("--interactions", "1500", cwd=tmp_path))
+    of_file = without_time(report("--interactions", "1500", "--maze", MAZES / "sutton.txt",
+                                  cwd=tmp_path))
+    built_in.pop("options"), of_file.pop("options")
+    assert built_in == of_file
+
+
+def test_dot(tmp_path):
+    done = run("binary", "--interactions", "1500", "--dot", "tree.dot", cwd=tmp_path)
+    assert done.returncode == 0
+    assert (tmp_path / "tree.dot").read_text().startswith("digraph")
+    assert files(tmp_path) == ["tree.dot"]
+
+
+def test_report_through_a_link(tmp_path):
+    (tmp_path / "target.json").write_text("old")
+    (tmp_path / "target.json").chmod(0o640)
+    (tmp_path / "report.json").symlink_to("target.json")
+    report("--interactions", "500", cwd=tmp_path)
+    assert (tmp_path / "report.json").is_symlink()
+    assert (tmp_path / "target.json").stat().st_mode & 0o777 == 0o640
+    assert files(tmp_path) == ["report.json", "target.json"]
+
+
+# ------------------------------------------------------------------------- showing
+
+def test_pictures(tmp_path):
+    done = run("binary", cwd=tmp_path)
+    lines = done.stdout.splitlines()
+    title = next(i for i, line in enumerate(lines) if line.startswith("Classes"))
+    assert lines[title].split() == ["Classes", "Policy"]
+    first_row = lines[title + 2]
+    assert first_row.count("*") == 2, "the exit, in both pictures"
+    assert "█" in first_row
+    assert set("".join(lines[title + 2:title + 8])) >= set("↑→↓")
+    assert re.search(r"^ +bits used +0 1 2 3 15 16 17\b", done.stdout, re.MULTILINE)
+
+
+def test_pictures_in_ascii(tmp_path):
+    done = run("binary", cwd=tmp_path, env={**os.environ, "LC_ALL": "C"})
+    assert done.returncode == 0 and done.stdout.isascii()
+    assert set("^>v#*") <= set(done.stdout)
+
+
+def test_line_a_step_on_a_pipe(tmp_path):
+    done = run("binary", "--interactions", "1000", "--steps", "5", cwd=tmp_path)
+    rows = re.findall(r"^ +(\d) +([\d,]+) +\d+ +\d+ +\d+ of 46$", done.stdout, re.MULTILINE)
+    assert rows == [("0", "200"), ("1", "400"), ("2", "600"), ("3", "800"), ("4", "1,000")]
+    assert "\r" not in done.stdout and "\033" not in done.stdout
+
+
+def test_one_refreshed_line_on_a_terminal(tmp_path):
+    here, there = pty.openpty()
+    with subprocess.Popen([PROGRAM, "binary", "--interactions", "1000", "--steps", "5"],
+                          cwd=tmp_path, stdout=there, env=ENVIRONMENT) as program:
+        os.close(there)
+        text = b""
+        while True:
+            try:
+                part = os.read(here, 4096)
+            except OSError:  # how Linux says that nobody is left at the other end
+                break
+            if not part:
+                break
+            text += part
+    os.close(here)
+    assert program.returncode == 0
+    shown = text.decode().replace("\r\n", "\n")
+    assert len(re.findall(r"\r\033\[Kstep [1-5] of 5: [\d,]+ interactions", shown)) == 5
+    assert re.search(r"\r\033\[K\nClasses", shown), "the line is gone when the pictures come"
+
+
+def test_table_of_runs(tmp_path):
+    done = run("binary", "--runs", "3", cwd=tmp_path)
+    rows = re.findall(r"^ +(\d+|median|least|most) .*$", done.stdout, re.MULTILINE)
+    assert rows == ["1", "2", "3", "median", "least", "most"]
+    assert re.search(r"optimal +all cells in \d of 3 runs", done.stdout)

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "options.h"
+
+#include "failure.h"
+
+#include "rlvc/rlvc.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <iostream>
+
+namespace {
+
+// Good defaults, found by trial. In a small maze without slip the residual criterion learns fast, from
+// what fits into 40 KiB. Chance calls for more samples; and in a larger maze the exit is found ever more
+// seldom, so that the ring must hold all that was seen, and the greedy action of a class that still holds
+// half the maze would only push the walk into a corner.
+struct Defaults {
+    uint32_t interactions;
+    uint32_t steps;
+    float epsilon;
+    float alpha;
+    uint32_t capacity;
+};
+
+constexpr Defaults returns_defaults{10000, 20, 0.8f, 0.0001f, 0};
+constexpr Defaults small_defaults{6000, 60, 0.9f, 0.003f, 1550};
+constexpr Defaults large_defaults{0, 60, 1.0f, 0.00001f, 0};
+constexpr uint32_t small_cells = 46;
+constexpr uint32_t large_interactions_a_cell = 320;
+constexpr uint32_t classes_min = 64, classes_max = 65535;
+
+constexpr char defaults_table[] = R"(
+Defaults by criterion    interactions  steps  epsilon  alpha    capacity
+  returns                10000 each       20  0.8      0.0001   those of a step
+  residual, small maze   6000             60  0.9      0.003    1550
+  residual, any other    320 a cell       60  1        0.00001  all
+A maze is small if it has at most 46 free cells, as Sutton's has, and no slip.)";
+
+Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
+    if (options.criterion == RLVC_CRITERION_RETURNS) {
+        return returns_defaults;
+    }
+    if (maze.free_cells <= small_cells && options.slip == 0.0f) {
+        return small_defaults;
+    }
+    Defaults large = large_defaults;
+    large.interactions = large_interactions_a_cell * maze.free_cells;
+    return large;
+}
+
+// Validators look at the text, before it is converted: "-1", "1e3" and "nan" must not slip through.
+CLI::Validator whole(uint64_t low, uint64_t high) {
+    return CLI::Validator(
+        [low, high](std::string &text) {
+            char *end = nullptr;
+            errno = 0;
+            const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+            const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
+            if (!text.empty() && digits && errno == 0 && value >= low && value <= high) {
+                return std::string();
+            }
+            return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " +
+                   std::to_string(high);
+        },
+        "");
+}
+
+enum class Ends { closed, open_below, open_above };
+
+// A number from 0 to 1, with or without its ends, also once it is a binary32.
+CLI::Validator fraction(Ends ends) {
+    return CLI::Validator(
+        [ends](std::string &text) {
+            char *end = nullptr;
+            const float value = std::strtof(text.c_str(), &end);
+            const bool number = end != text.c_str() && *end == '\0';
+            const bool above = ends == Ends::open_below ? value > 0.0f : value >= 0.0f;
+            const bool below = ends == Ends::open_above ? value < 1.0f : value <= 1.0f;
+            if (number && above && below) {
+                return std::string();
+            }
+            return "'" + text + "' is not a number in " + (ends == Ends::open_below ? "(" : "[") +
+                   "0, 1" + (ends == Ends::open_above ? ")" : "]");
+        },
+        "");
+}
+
+CLI::Validator file_name() {
+    return CLI::Validator(
+        [](std::string &text) {
+            return text.empty() ? std::string("a file's name is wanted, and this is empty")
+                                : std::string();
+        },
+        "");
+}
+
+void add_learning(CLI::App &binary, Options &options) {
+    const std::map<std::string, uint8_t> criteria{{"returns", RLVC_CRITERION_RETURNS},
+                                                  {"residual", RLVC_CRITERION_RESIDUAL}};
+    options.criterion = RLVC_CRITERION_RESIDUAL;
+    binary
+        .add_option_function<std::string>(
+            "--criterion",
+            [&options, criteria](const std::string &name) {
+                options.criterion = criteria.at(name);
+            },
+            "which classes are aliased: returns, as published, or residual (default)")
+        ->check([criteria](const std::string &text) {
+            return criteria.count(text) ? std::string()
+                                        : "'" + text + "' is neither returns nor residual";
+        })
+        ->type_name("NAME");
+    binary
+        .add_option("--interactions", options.interactions,
+                    "returns: fresh ones for each step; residual: those of the whole run")
+        ->type_name("N")
+        ->check(whole(1, 2147483647));
+    binary
+        .add_option("--steps", options.steps,
+                    "learning steps; residual: spread evenly over the interactions")
+        ->type_name("N")
+        ->check(whole(1, 1000000));
+    binary.add_option("--gamma", options.gamma, "discount of future rewards (0.9)")
+        ->type_name("P")
+        ->check(fraction(Ends::open_above));
+    binary.add_option("--epsilon", options.epsilon, "probability of exploring")
+        ->type_name("P")
+        ->check(fraction(Ends::closed));
+    binary
+        .add_option("--alpha", options.alpha,
+                    "a split is kept if its corrected p-value is below this")
+        ->type_name("P")
+        ->check(fraction(Ends::open_below));
+    binary
+        .add_option("--classes", options.classes,
+                    "classes the tree may grow to (4 for 3 cells, at least 64)")
+        ->type_name("N")
+        ->check(whole(1, classes_max));
+    binary
+        .add_option("--capacity", options.capacity, "interactions kept in memory; the oldest leave")
+        ->type_name("N")
+        ->check(whole(1, 2147483647));
+}
+
+void add_world(CLI::App &binary, Options &options) {
+    binary
+        .add_option("--maze", options.maze,
+                    "text: '#' wall, '.' free, '*' exit, at most 256 x 256 (Sutton's 9 x 6)")
+        ->type_name("FILE")
+        ->check(file_name());
+    binary.add_option("--slip", options.slip, "probability that a move goes astray (0)")
+        ->type_name("P")
+        ->check(fraction(Ends::closed));
+    binary.add_option("--distractors", options.distractors, "random bits in each percept (11)")
+        ->type_name("N")
+        ->check(whole(0, GRIDWORLD_BITS_MAX));
+    binary.add_option("--seed", options.seed, "of everything random (1)")
+        ->type_name("N")
+        ->check(whole(0, 4294967295));
+    binary
+        .add_option("--runs", options.runs,
+                    "several runs with the seeds from --seed on, shown as a table")
+        ->type_name("N")
+        ->check(whole(1, 1000000));
+}
+
+void add_files(CLI::App &binary, Options &options) {
+    binary.add_option("--json", options.json, "write a report (its form: REPORT.md)")
+        ->type_name("FILE")
+        ->check(file_name());
+    binary.add_option("--dot", options.dot, "write the tree for Graphviz; not with --runs")
+        ->type_name("FILE")
+        ->check(file_name());
+}
+
+void check_combination(const Options &options) {
+    if (!options.dot.empty() && options.runs > 0) {
+        throw Failure("--dot: writes one tree, and --runs makes several: leave one of them out");
+    }
+    if (!options.dot.empty() && options.dot == options.json) {
+        throw Failure("--dot: '" + options.dot + "' is the file of --json too");
+    }
+}
+
+} // namespace
+
+bool read_options(int argc, char **argv, Options &options) {
+    const std::string version = std::string("run_gridworld ") + rlvc_version();
+    CLI::App app("Learns a maze from rewards alone and shows the classes and the policy it found.",
+                 "run_gridworld");
+    app.set_version_flag("--version", version, "Print the version and exit");
+    app.require_subcommand(1);
+    CLI::App &binary = *app.add_subcommand(
+        "binary", "The Binary Gridworld (section 6.1): a cell is seen as a string of bits");
+    binary.set_version_flag("--version", version, "Print the version and exit");
+    add_learning(binary, options);
+    add_world(binary, options);
+    add_files(binary, options);
+    binary.footer(defaults_table);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success &asked) {
+        app.exit(asked);
+        return false;
+    } catch (const CLI::RequiredError &) {
+        throw Failure(argc > 1 ? std::string(argv[1]) + ": not a subcommand; there is 'binary'"
+                               : "a subcommand is wanted: 'binary' (see --help)");
+    } catch (const CLI::ArgumentMismatch &error) {
+        const std::string what = error.what();
+        throw Failure(what.substr(0, what.find(':')) + ": takes one value, once");
+    } catch (const CLI::ParseError &error) {
+        throw Failure(error.what());
+    }
+    check_combination(options);
+    return true;
+}
+
+void settle(Options &options, const gridworld_maze &maze) {
+    const bool returns = options.criterion == RLVC_CRITERION_RETURNS;
+    const uint32_t place = gridworld_bits(&maze, 0);
+    if (gridworld_bits(&maze, options.distractors) > GRIDWORLD_BITS_MAX) {
+        throw Failure("--distractors: at most " + std::to_string(GRIDWORLD_BITS_MAX - place) +
+                      " fit into a percept of this maze");
+    }
+    const Defaults defaults = defaults_for(options, maze);
+    if (options.interactions == 0) {
+        options.interactions = defaults.interactions;
+    }
+    if (options.epsilon < 0.0f) {
+        options.epsilon = defaults.epsilon;
+    }
+    if (options.alpha == 0.0f) {
+        options.alpha = defaults.alpha;
+    }
+    if (options.classes == 0) {
+        options.classes = std::clamp(maze.free_cells / 3 * 4 + 4, classes_min, classes_max);
+    }
+    if (options.capacity == 0) {
+        options.capacity = defaults.capacity == 0
+                               ? options.interactions
+                               : std::min(options.interactions, defaults.capacity);
+    }
+    if (!returns && options.steps > options.interactions) {
+        throw Failure("--steps: at most one for each of the " +
+                      std::to_string(options.interactions) + " interactions");
+    }
+    if (options.steps == 0) {
+        options.steps = returns ? defaults.steps : std::min(options.interactions, defaults.steps);
+    }
+}
+
+const char *criterion_name(const Options &options) {
+    return options.criterion == RLVC_CRITERION_RETURNS ? "returns" : "residual";
+}

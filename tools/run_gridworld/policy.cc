@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "policy.h"
+
+#include "check.h"
+
+#include <set>
+
+namespace {
+
+constexpr int draws = 16; // percepts of each cell
+
+CellPolicy look_up_cell(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
+                        const Optimum &optimum, uint32_t cell, gridworld_random &random) {
+    unsigned char percept[GRIDWORLD_PERCEPT_BYTES(GRIDWORLD_BITS_MAX)];
+    CellPolicy result;
+    result.optimal = result.near_optimal = true;
+    for (int i = 0; i < draws; i++) {
+        uint32_t class_id = 0, action = 0;
+        gridworld_encode(&maze, distractors, cell, &random, percept);
+        check(rlvc_predict(agent, percept, &class_id, &action), "rlvc_predict");
+        result.optimal = result.optimal && optimum.optimal(cell, action);
+        result.near_optimal = result.near_optimal && optimum.near_optimal(cell, action);
+        if (i == 0) {
+            result.class_id = class_id;
+            result.action = action;
+        }
+        if (result.class_id != class_id) {
+            result.class_id.reset();
+        }
+        if (result.action != action) {
+            result.action.reset();
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
+                      const Optimum &optimum) {
+    Policy policy;
+    gridworld_random random; // not the world's: looking must not change what happens
+    gridworld_random_seed(&random, 0);
+    policy.cells.resize(std::size_t{maze.width} * maze.height);
+    for (uint32_t cell = 0; cell < policy.cells.size(); cell++) {
+        if (maze.cells[cell] == GRIDWORLD_FREE) {
+            policy.cells[cell] = look_up_cell(agent, maze, distractors, optimum, cell, random);
+            policy.optimal += policy.cells[cell].optimal;
+            policy.near_optimal += policy.cells[cell].near_optimal;
+        }
+    }
+    return policy;
+}
+
+std::vector<uint32_t> bits_used(const rlvc_agent *agent) {
+    rlvc_statistics statistics;
+    std::set<uint32_t> bits;
+    check(rlvc_stats(agent, &statistics), "rlvc_stats");
+    for (uint32_t i = 0; i + 1 < statistics.classes; i++) {
+        unsigned char feature[RLVC_BITS_FEATURE_BYTES];
+        check(rlvc_split_at(agent, i, nullptr, feature), "rlvc_split_at");
+        bits.insert(rlvc_bits_feature(feature));
+    }
+    return {bits.begin(), bits.end()};
+}
+
+bool is_distractor(const gridworld_maze &maze, uint32_t distractors, uint32_t bit) {
+    const uint32_t first = gridworld_x_bits(&maze);
+    return bit >= first && bit < first + distractors;
+}

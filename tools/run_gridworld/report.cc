@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "report.h"
+
+#include "rlvc/rlvc.h"
+
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <cstdlib>
+
+namespace {
+
+using Json = nlohmann::ordered_json; // members keep the order in which REPORT.md explains them
+
+constexpr int report_version = 1;
+constexpr const char *action_names[GRIDWORLD_ACTIONS] = {"up", "right", "down", "left"};
+
+// The shortest decimal that stands for a binary32: 0.9, not 0.899999976.
+double shortest(float value) {
+    char text[32];
+    *std::to_chars(text, text + sizeof text - 1, value).ptr = '\0';
+    return std::strtod(text, nullptr);
+}
+
+template <class T> Json or_null(const std::optional<T> &value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json bit_range(uint32_t first, uint32_t count) {
+    Json bits = Json::array();
+    for (uint32_t i = 0; i < count; i++) {
+        bits.push_back(first + i);
+    }
+    return bits;
+}
+
+Json describe_options(const Options &options) {
+    return {{"criterion", criterion_name(options)},
+            {"interactions", options.interactions},
+            {"steps", options.steps},
+            {"gamma", shortest(options.gamma)},
+            {"epsilon", shortest(options.epsilon)},
+            {"alpha", shortest(options.alpha)},
+            {"seed", options.seed},
+            {"maze", options.maze.empty() ? Json(nullptr) : Json(options.maze)},
+            {"slip", shortest(options.slip)},
+            {"distractors", options.distractors},
+            {"classes", options.classes},
+            {"capacity", options.capacity}};
+}
+
+// One value for each cell, in rows.
+template <class Value> Json by_cell(const gridworld_maze &maze, const Policy &policy, Value value) {
+    Json rows = Json::array();
+    for (uint32_t y = 0; y < maze.height; y++) {
+        Json row = Json::array();
+        for (uint32_t x = 0; x < maze.width; x++) {
+            row.push_back(value(policy.cells[std::size_t{y} * maze.width + x]));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json describe_history(const std::vector<StepRecord> &history) {
+    Json all = Json::array();
+    for (const StepRecord &step : history) {
+        all.push_back({{"step", step.step},
+                       {"interactions", step.interactions},
+                       {"splits", step.splits},
+                       {"classes", step.classes},
+                       {"optimal_cells", step.optimal_cells}});
+    }
+    return all;
+}
+
+void add_run(Json &json, const gridworld_maze &maze, const std::vector<std::string> &rows,
+             const RunResult &run) {
+    json["seed"] = run.seed;
+    json["cells"] = run.cells;
+    json["optimal_cells"] = run.policy.optimal;
+    json["near_optimal_cells"] = run.policy.near_optimal;
+    json["interactions"] = run.interactions;
+    json["interactions_to_optimal"] = or_null(run.interactions_to_optimal);
+    json["interactions_to_first_optimal"] = or_null(run.interactions_to_first_optimal);
+    json["classes"] = run.classes;
+    json["depth"] = run.depth;
+    json["bits_used"] = run.bits_used;
+    json["distractors_used"] = run.distractors_used;
+    json["last_split_step"] = run.last_split_step;
+    json["memory_bytes"] = run.memory_bytes;
+    json["seconds"] = run.seconds;
+    json["maze"] = rows;
+    json["cell_classes"] =
+        by_cell(maze, run.policy, [](const CellPolicy &cell) { return or_null(cell.class_id); });
+    json["cell_actions"] = by_cell(maze, run.policy, [](const CellPolicy &cell) {
+        return cell.action ? Json(action_names[*cell.action]) : Json(nullptr);
+    });
+    json["history"] = describe_history(run.history);
+    json["tree"] = Json::parse(run.tree_json);
+}
+
+} // namespace
+
+std::string make_report(const Options &options, const gridworld_maze &maze,
+                        const std::vector<std::string> &rows, const std::vector<RunResult> &runs) {
+    const uint32_t x = gridworld_x_bits(&maze), y = gridworld_y_bits(&maze);
+    Json json{{"version", report_version},
+              {"kind", "run_gridworld binary"},
+              {"program", std::string("run_gridworld ") + rlvc_version()},
+              {"options", describe_options(options)},
+              {"percept",
+               {{"bits", x + y + options.distractors},
+                {"x_bits", bit_range(0, x)},
+                {"distractor_bits", bit_range(x, options.distractors)},
+                {"y_bits", bit_range(x + options.distractors, y)}}}};
+    if (options.runs == 0) {
+        add_run(json, maze, rows, runs.front());
+    } else {
+        json["runs"] = Json::array();
+        for (const RunResult &run : runs) {
+            Json one;
+            add_run(one, maze, rows, run);
+            json["runs"].push_back(std::move(one));
+        }
+    }
+    // A file's name need not be UTF-8.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
