@@ -10,6 +10,7 @@ import pty
 import re
 import signal
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -317,6 +318,12 @@ def test_built_in_maze_is_the_file(tmp_path):
                                   cwd=tmp_path))
     built_in.pop("options"), of_file.pop("options")
     assert built_in == of_file
+
+
+def test_field_is_what_its_script_makes():
+    made = subprocess.run([sys.executable, "-B", MAZES / "make_field.py"], capture_output=True,
+                          text=True, check=True).stdout
+    assert made == (MAZES / "field64.txt").read_text()
 
 
 def test_dot(tmp_path):

@@ -60,14 +60,14 @@ std::string list(const std::vector<uint32_t> &bits) {
     return text.empty() ? "none" : text;
 }
 
-std::string not_optimal_cells(const gridworld_maze &maze, const Policy &policy) {
-    std::string text;
-    std::size_t listed = 0;
-    for (uint32_t cell = 0; cell < policy.cells.size(); cell++) {
-        if (maze.cells[cell] == GRIDWORLD_FREE && !policy.cells[cell].optimal) {
-            if (listed++ == cells_listed) {
-                return text + " ...";
-            }
+// Only few are worth a list: of many, the pictures tell more.
+std::string not_optimal_cells(const gridworld_maze &maze, const RunResult &run) {
+    if (run.cells - run.policy.optimal > cells_listed) {
+        return "";
+    }
+    std::string text = "; not in";
+    for (uint32_t cell = 0; cell < run.policy.cells.size(); cell++) {
+        if (maze.cells[cell] == GRIDWORLD_FREE && !run.policy.cells[cell].optimal) {
             text += format(" (%u,%u)", cell % maze.width, cell / maze.width);
         }
     }
@@ -128,9 +128,8 @@ std::string describe_run(const Options &options, const gridworld_maze &maze, con
     if (run.interactions_to_optimal) {
         optimal += ", from " + grouped(*run.interactions_to_optimal) + " interactions on";
     } else {
-        optimal +=
-            format(" (%u to within 1 %% of the optimal value); not in", run.policy.near_optimal) +
-            not_optimal_cells(maze, run.policy);
+        optimal += format(" (%u to within 1 %% of the optimal value)", run.policy.near_optimal) +
+                   not_optimal_cells(maze, run);
     }
     std::string bits = list(run.bits_used);
     if (run.bits_used == place_bits(options, maze)) {
