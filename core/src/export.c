@@ -19,9 +19,9 @@ typedef struct exporter {
     const rlvc_tree *tree;
     const uint8_t *policy;
     const char *name;
-    uint32_t mixed;                /* nodes of the compact tree */
-    uint32_t used;                 /* distinct bits that it tests; TABLE_BITS_MAX + 1: more */
-    uint16_t bit[TABLE_BITS_MAX];  /* these, ascending */
+    uint32_t mixed;                   /* nodes of the compact tree */
+    uint32_t used;                    /* distinct bits that it tests, or TABLE_BITS_MAX + 1 of more */
+    uint16_t bit[TABLE_BITS_MAX + 1]; /* these, ascending */
 } exporter;
 
 static void string(exporter *e, const char *s) {
@@ -81,13 +81,11 @@ static uint32_t bit_of(const exporter *e, uint32_t node) {
 /* Adds a bit to those used, in its place. */
 static void use_bit(exporter *e, uint32_t bit) {
     uint32_t at = 0;
-    while (at < e->used && at < TABLE_BITS_MAX && e->bit[at] < bit)
+    while (at < e->used && e->bit[at] < bit)
         at++;
-    if (e->used > TABLE_BITS_MAX || (at < e->used && at < TABLE_BITS_MAX && e->bit[at] == bit))
+    if (e->used > TABLE_BITS_MAX || (at < e->used && e->bit[at] == bit))
         return;
-    if (e->used++ == TABLE_BITS_MAX)
-        return;
-    for (uint32_t i = e->used - 1u; i > at; i--)
+    for (uint32_t i = e->used++; i > at; i--)
         e->bit[i] = e->bit[i - 1u];
     e->bit[at] = (uint16_t)bit;
 }

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+/* Proves the exported policies equal to the agents that they were exported from: on every percept up to
+ * 20 bits, else on a path to each leaf of the tree (many, the other bits being random) and on a million
+ * random percepts. */
+#include "bytes.h"
+#include "cases.h"
+#include "many.h"
+#include "maze.h"
+#include "single.h"
+#include "wide.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define BYTES_MAX RLVC_BITS_PERCEPT_BYTES(300)
+
+static uint64_t state = 1;
+
+static uint32_t draw(void) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(state >> 32);
+}
+
+static unsigned exported(uint32_t i, const unsigned char *percept) {
+    switch (i) {
+    case 0:
+        return maze_act(percept);
+    case 1:
+        return single_act(percept);
+    case 2:
+        return bytes_act(percept);
+    case 3:
+        return wide_act(percept);
+    default:
+        return many_act(percept);
+    }
+}
+
+/* 1 if both act alike. */
+static int same(const learnt *made, uint32_t i, const unsigned char *percept) {
+    uint32_t action = UINT32_MAX;
+    if (rlvc_predict(made->agent, percept, NULL, &action) == RLVC_OK &&
+        action == exported(i, percept))
+        return 1;
+    printf("  percept");
+    for (uint32_t byte = 0; byte < RLVC_BITS_PERCEPT_BYTES(made->bits); byte++)
+        printf(" %02x", percept[byte]);
+    printf(": the agent does %u, its export %u\n", (unsigned)action, exported(i, percept));
+    return 0;
+}
+
+static int check_all(const learnt *made, uint32_t i) {
+    unsigned char percept[BYTES_MAX];
+    for (uint32_t value = 0; value < 1u << made->bits; value++) {
+        for (uint32_t byte = 0; byte < 3; byte++)
+            percept[byte] = (unsigned char)(value >> 8u * byte);
+        if (!same(made, i, percept))
+            return 0;
+    }
+    return 1;
+}
+
+/* Sets a random percept's bits so that it falls into a class: split by split back through the history of
+ * the tree (agent.h). */
+static void lead_to(const learnt *made, uint32_t class_id, uint32_t classes,
+                    unsigned char *percept) {
+    for (uint32_t j = classes - 1u; j-- > 0;) {
+        rlvc_split split;
+        unsigned char feature[RLVC_BITS_FEATURE_BYTES];
+        if (rlvc_split_at(made->agent, j, &split, feature) != RLVC_OK)
+            return;
+        int present = class_id == j + 1u;
+        if (!present && class_id != split.class_id)
+            continue;
+        uint32_t bit = rlvc_bits_feature(feature);
+        unsigned char mask = (unsigned char)(1u << bit % 8u);
+        if (present)
+            percept[bit / 8u] = (unsigned char)(percept[bit / 8u] | mask);
+        else
+            percept[bit / 8u] = (unsigned char)(percept[bit / 8u] & ~mask);
+        class_id = split.class_id;
+    }
+}
+
+static int check_some(const learnt *made, uint32_t i) {
+    unsigned char percept[BYTES_MAX];
+    rlvc_statistics statistics;
+    if (rlvc_stats(made->agent, &statistics) != RLVC_OK)
+        return 0;
+    for (uint32_t n = 0; n < 1000000u; n++) {
+        for (uint32_t byte = 0; byte < sizeof percept; byte++)
+            percept[byte] = (unsigned char)draw();
+        if (n < 100u * statistics.classes) {
+            uint32_t wanted = n % statistics.classes, found = UINT32_MAX;
+            lead_to(made, wanted, statistics.classes, percept);
+            if (rlvc_predict(made->agent, percept, &found, NULL) != RLVC_OK || found != wanted) {
+                printf("  a percept for class %u fell into %u\n", (unsigned)wanted,
+                       (unsigned)found);
+                return 0;
+            }
+        }
+        if (!same(made, i, percept))
+            return 0;
+    }
+    return 1;
+}
+
+int main(void) {
+    static const char *const names[CASES] = CASE_NAMES;
+    int failed = 0;
+    for (uint32_t i = 0; i < CASES; i++) {
+        learnt made = learn_case(i);
+        int equal = made.bits <= 20 ? check_all(&made, i) : check_some(&made, i);
+        printf("%s: %s\n", names[i], equal ? "the same on all percepts tried" : "DIFFERENT");
+        failed += !equal;
+    }
+    return failed > 0;
+}
