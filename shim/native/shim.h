@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* What the Python package needs of C besides the library: loops over arrays, and the layout of the
+ * structs as this compiler made it. Only the public interface is used.
+ *
+ * The functions are exported with the library's own; shim/rlvc/_lib.py declares them. Pointers are
+ * trusted: the package checks its arrays before it calls. */
+#ifndef RLVC_SHIM_H
+#define RLVC_SHIM_H
+
+#include "gridworld.h"
+#include "rlvc/rlvc.h"
+
+/* An entry of a table that ends with a null name: the size of a struct ("rlvc_choice"), or where a
+ * field of it begins ("rlvc_choice.action"). */
+typedef struct rlvc_shim_entry {
+    const char *name;
+    size_t value;
+} rlvc_shim_entry;
+
+RLVC_API const rlvc_shim_entry *rlvc_shim_layout(void);
+
+/* The loops below stop at the first element that fails and answer its status; *done is its index, or
+ * `count`. What was done before stands. `bytes` is the size of a percept's record. */
+
+/* rlvc_predict for each of `count` percepts.
+ * @param classes, actions [count], each optional */
+RLVC_API rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *percepts,
+                                       uint32_t bytes, size_t count, uint32_t *classes,
+                                       uint32_t *actions, size_t *done);
+
+/* rlvc_begin and rlvc_act for each of `count` percepts, that of each environment of a vector.
+ * @param choices [count] */
+RLVC_API rlvc_status rlvc_shim_act(rlvc_agent *agent, const unsigned char *percepts, uint32_t bytes,
+                                   size_t count, rlvc_choice *choices, size_t *done);
+
+/* Interactions, as arrays of `count` elements. */
+typedef struct rlvc_shim_log {
+    const unsigned char *percepts, *next; /* `bytes` each */
+    const rlvc_choice *choices;
+    const float *rewards;
+    const uint8_t *ends;
+    size_t count;
+    uint32_t bytes;
+    uint32_t actions;
+} rlvc_shim_log;
+
+/* rlvc_observe for each interaction of a log. Where one goes on and the next begins at the very percept
+ * that it led to, they are of one episode; else the next one begins an episode. All are looked at
+ * before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done.
+ * @param resume 1: the first goes on from the agent's current percept; 0: it begins an episode */
+RLVC_API rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, uint8_t resume,
+                                       size_t *done);
+
+/* The last solution, as tables.
+ * @param q, samples    [classes][actions]
+ * @param values, policy [classes] */
+RLVC_API rlvc_status rlvc_shim_tables(const rlvc_agent *agent, uint32_t classes, uint32_t actions,
+                                      float *q, uint32_t *samples, float *values, uint32_t *policy);
+
+/* Nothing, with the arguments of rlvc_act and rlvc_observe: what a call from Python costs at least. */
+RLVC_API rlvc_status rlvc_shim_empty_act(rlvc_agent *agent, rlvc_choice *choice);
+RLVC_API rlvc_status rlvc_shim_empty_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
+                                             const void *next, uint8_t end);
+
+/* The maze, for the registered environment: gridworld.h describes these. */
+RLVC_API const gridworld_maze *rlvc_shim_sutton(void);
+RLVC_API int rlvc_shim_maze_parse(gridworld_maze *maze, const char *text, size_t bytes,
+                                  unsigned char *cells, size_t room, gridworld_error *error);
+RLVC_API uint32_t rlvc_shim_maze_bits(const gridworld_maze *maze, uint32_t distractors);
+RLVC_API void rlvc_shim_maze_encode(const gridworld_maze *maze, uint32_t distractors, uint32_t cell,
+                                    gridworld_random *random, unsigned char *percept);
+RLVC_API int rlvc_shim_world_init(gridworld *world, const gridworld_maze *maze, uint32_t distractors,
+                                  float slip, uint32_t seed);
+RLVC_API void rlvc_shim_world_reset(gridworld *world);
+RLVC_API void rlvc_shim_world_percept(gridworld *world, unsigned char *percept);
+RLVC_API int rlvc_shim_world_step(gridworld *world, uint32_t action, float *reward);
+
+#endif

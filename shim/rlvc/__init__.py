@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+"""Reinforcement learning of classes: a small, readable decision tree, learnt from rewards alone.
+
+The method is *Reinforcement Learning of Visual Classes* (S. Jodogne and J. H. Piater, 2004); what is
+said to be in a section is in that of "Interactive selection of visual features through reinforcement
+learning".
+"""
+
+from ._version import __version__
+from .agent import CHOICE, Agent, Choice, Prediction, Progress, Split, Statistics
+from .config import Config
+from .domain import Bits, Domain
+from .encode import Encoder
+from .errors import Error
+from .learning import Record, Run, learn
+from .logs import learn_from
+
+__all__ = [
+    "CHOICE",
+    "Agent",
+    "Bits",
+    "Choice",
+    "Config",
+    "Domain",
+    "Encoder",
+    "Error",
+    "Prediction",
+    "Progress",
+    "Record",
+    "Run",
+    "Split",
+    "Statistics",
+    "__version__",
+    "learn",
+    "learn_from",
+]

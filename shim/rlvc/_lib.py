@@ -1,0 +1,349 @@
+# SPDX-License-Identifier: MIT
+"""Finds and loads the library, and declares all of it.
+
+The library is loaded twice, which costs nothing: ``call`` keeps the interpreter's lock, for calls
+that are over in less than a microsecond; ``long_call`` releases it, for those that are not.
+"""
+
+from __future__ import annotations
+
+import ctypes as c
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from ._version import __version__
+from .errors import LibraryError
+
+# ------------------------------------------------------------------ structs
+
+EXHIBITS = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(c.c_uint8))
+NAME = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32)
+WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)
+
+
+class Sample(c.Structure):
+    """``rlvc_sample``."""
+
+    _fields_ = [("key", c.c_uint32), ("slot", c.c_uint32)]
+
+
+class Samples(c.Structure):
+    """``rlvc_samples``."""
+
+    _fields_ = [
+        ("percepts", c.c_void_p),
+        ("sample", c.c_void_p),
+        ("percept_bytes", c.c_uint32),
+        ("count", c.c_uint32),
+    ]
+
+
+CANDIDATES = c.CFUNCTYPE(
+    c.c_int, c.c_void_p, c.POINTER(Samples), c.c_uint32, c.c_uint32, c.c_void_p,
+    c.POINTER(c.c_uint32),
+)  # fmt: skip
+DETECT = c.CFUNCTYPE(
+    c.c_int, c.c_void_p, c.POINTER(Samples), c.c_uint32, c.c_uint32, c.c_void_p, c.c_uint32,
+    c.POINTER(c.c_uint64),
+)  # fmt: skip
+ORACLE = c.CFUNCTYPE(
+    c.c_int, c.c_void_p, c.POINTER(Samples), c.c_uint32, c.c_void_p, c.POINTER(c.c_uint32)
+)
+
+
+class Domain(c.Structure):
+    """``rlvc_domain``."""
+
+    _fields_ = [
+        ("ctx", c.c_void_p),
+        ("percept_bytes", c.c_uint32),
+        ("feature_bytes", c.c_uint32),
+        ("features_max", c.c_uint32),
+        ("exhibits", EXHIBITS),
+        ("candidates", CANDIDATES),
+        ("detect", DETECT),
+        ("oracle", ORACLE),
+        ("name", NAME),
+    ]
+
+
+class Config(c.Structure):
+    """``rlvc_config``."""
+
+    _fields_ = [
+        ("actions", c.c_uint32),
+        ("capacity", c.c_uint32),
+        ("classes", c.c_uint32),
+        ("features_at_once", c.c_uint32),
+        ("min_samples", c.c_uint32),
+        ("max_sweeps", c.c_uint32),
+        ("seed", c.c_uint32),
+        ("criterion", c.c_uint8),
+        ("score", c.c_uint8),
+        ("solver", c.c_uint8),
+        ("untried", c.c_uint8),
+        ("continuing", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
+        ("discount", c.c_float),
+        ("epsilon", c.c_float),
+        ("alpha", c.c_float),
+        ("tolerance", c.c_float),
+        ("learning_rate", c.c_float),
+        ("optimistic_value", c.c_float),
+    ]
+
+
+class Choice(c.Structure):
+    """``rlvc_choice``."""
+
+    _fields_ = [("action", c.c_uint8), ("exploited", c.c_uint8)]
+
+
+class Progress(c.Structure):
+    """``rlvc_progress``."""
+
+    _fields_ = [
+        ("work", c.c_uint32),
+        ("rounds", c.c_uint32),
+        ("splits", c.c_uint32),
+        ("done", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
+    ]
+
+
+class Statistics(c.Structure):
+    """``rlvc_statistics``."""
+
+    _fields_ = [
+        ("interactions", c.c_uint64),
+        ("stored", c.c_uint32),
+        ("step", c.c_uint32),
+        ("classes", c.c_uint32),
+        ("depth", c.c_uint32),
+        ("last_split", c.c_uint32),
+        ("refused", c.c_uint32),
+        ("sweeps", c.c_uint32),
+        ("residual", c.c_float),
+    ]
+
+
+class Split(c.Structure):
+    """``rlvc_split``."""
+
+    _fields_ = [
+        ("class_id", c.c_uint32),
+        ("step", c.c_uint32),
+        ("action", c.c_uint32),
+        ("samples", c.c_uint32),
+        ("log_tests", c.c_float),
+        ("score", c.c_float),
+        ("log_p", c.c_float),
+    ]
+
+
+class Log(c.Structure):
+    """``rlvc_shim_log``."""
+
+    _fields_ = [
+        ("percepts", c.c_void_p),
+        ("next", c.c_void_p),
+        ("choices", c.c_void_p),
+        ("rewards", c.c_void_p),
+        ("ends", c.c_void_p),
+        ("count", c.c_size_t),
+        ("bytes", c.c_uint32),
+        ("actions", c.c_uint32),
+    ]
+
+
+class Maze(c.Structure):
+    """``gridworld_maze``."""
+
+    _fields_ = [
+        ("width", c.c_uint32),
+        ("height", c.c_uint32),
+        ("free_cells", c.c_uint32),
+        ("cells", c.c_void_p),
+    ]
+
+
+class MazeFault(c.Structure):
+    """``gridworld_error``."""
+
+    _fields_ = [("line", c.c_uint32), ("column", c.c_uint32), ("what", c.c_char_p)]
+
+
+class MazeRandom(c.Structure):
+    """``gridworld_random``."""
+
+    _fields_ = [("state", c.c_uint64)]
+
+
+class World(c.Structure):
+    """``gridworld``."""
+
+    _fields_ = [
+        ("maze", c.POINTER(Maze)),
+        ("random", MazeRandom),
+        ("distractors", c.c_uint32),
+        ("slip", c.c_uint32),
+        ("cell", c.c_uint32),
+    ]
+
+
+class _Entry(c.Structure):
+    """``rlvc_shim_entry``."""
+
+    _fields_ = [("name", c.c_char_p), ("value", c.c_size_t)]
+
+
+STRUCTS: dict[str, type[c.Structure]] = {
+    "rlvc_config": Config,
+    "rlvc_choice": Choice,
+    "rlvc_progress": Progress,
+    "rlvc_statistics": Statistics,
+    "rlvc_split": Split,
+    "rlvc_sample": Sample,
+    "rlvc_samples": Samples,
+    "rlvc_domain": Domain,
+    "rlvc_shim_log": Log,
+    "gridworld_maze": Maze,
+    "gridworld_error": MazeFault,
+    "gridworld_random": MazeRandom,
+    "gridworld": World,
+}
+
+# ------------------------------------------------------------------ functions
+
+_P = c.c_void_p  # an agent, a percept, an array, or a struct that byref() gave
+_U32 = c.c_uint32
+
+# Name: what it returns, what it takes.
+FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
+    # status.h, rlvc.h, bits.h, chi2.h
+    "rlvc_status_text": (c.c_char_p, [c.c_int]),
+    "rlvc_version": (c.c_char_p, []),
+    "rlvc_bits_domain": (c.c_int, [_U32, _P]),
+    "rlvc_chi2_survival": (c.c_int, [c.c_float, _U32, _P, _P]),
+    "rlvc_chi2_critical": (c.c_int, [c.c_float, _U32, _P]),
+    "rlvc_chi2_table": (c.c_int, [_U32, _U32, _U32, _U32, _P]),
+    # agent.h
+    "rlvc_config_default": (c.c_int, [_P, _P, _U32]),
+    "rlvc_config_check": (c.c_int, [_P, _P, _P]),
+    "rlvc_agent_size": (c.c_int, [_P, _P, _P]),
+    "rlvc_agent_init": (c.c_int, [_P, _P, _P, c.c_size_t, _P]),
+    "rlvc_begin": (c.c_int, [_P, _P]),
+    "rlvc_act": (c.c_int, [_P, _P]),
+    "rlvc_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),
+    "rlvc_learn": (c.c_int, [_P, _U32, _P]),
+    "rlvc_predict": (c.c_int, [_P, _P, _P, _P]),
+    "rlvc_stats": (c.c_int, [_P, _P]),
+    "rlvc_q": (c.c_int, [_P, _U32, _U32, _P, _P]),
+    "rlvc_value": (c.c_int, [_P, _U32, _P, _P]),
+    "rlvc_split_at": (c.c_int, [_P, _U32, _P, _P]),
+    "rlvc_print": (c.c_int, [_P, _U32, WRITE, _P]),
+    "rlvc_agent_check": (c.c_int, [_P]),
+    # native/shim.h
+    "rlvc_shim_layout": (c.POINTER(_Entry), []),
+    "rlvc_shim_predict": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P, _P]),
+    "rlvc_shim_act": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P]),
+    "rlvc_shim_observe": (c.c_int, [_P, _P, c.c_uint8, _P]),
+    "rlvc_shim_tables": (c.c_int, [_P, _U32, _U32, _P, _P, _P, _P]),
+    "rlvc_shim_empty_act": (c.c_int, [_P, _P]),
+    "rlvc_shim_empty_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),
+    "rlvc_shim_sutton": (c.POINTER(Maze), []),
+    "rlvc_shim_maze_parse": (c.c_int, [_P, _P, c.c_size_t, _P, c.c_size_t, _P]),
+    "rlvc_shim_maze_bits": (_U32, [_P, _U32]),
+    "rlvc_shim_maze_encode": (None, [_P, _U32, _U32, _P, _P]),
+    "rlvc_shim_world_init": (c.c_int, [_P, _P, _U32, c.c_float, _U32]),
+    "rlvc_shim_world_reset": (None, [_P]),
+    "rlvc_shim_world_percept": (None, [_P, _P]),
+    "rlvc_shim_world_step": (c.c_int, [_P, _U32, _P]),
+}
+
+# status.h, rlvc/agent.h
+OK, E_NULL, E_CONFIG, E_MEMORY, E_ORDER, E_RANGE, E_REWARD, E_BUSY, E_CALLBACK, E_REENTERED = (
+    -n for n in range(10)
+)
+GOES_ON, TERMINATED, TRUNCATED = range(3)
+PRINT_TEXT, PRINT_DOT, PRINT_JSON = range(3)
+BUDGET_MIN = 64
+DETECT_SAMPLES = DETECT_FEATURES = 64
+NAME_BYTES = 64
+BITS_MAX = 1024
+ALIGNMENT = 8
+
+# ------------------------------------------------------------------ loading
+
+_SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+_PREFIX = "" if sys.platform == "win32" else "lib"
+
+
+def library_path() -> Path:
+    """Where the library lies: inside the package, or where ``RLVC_PYTHON_LIBRARY`` says."""
+    named = os.environ.get("RLVC_PYTHON_LIBRARY")
+    if named:
+        return Path(named)
+    return Path(__file__).with_name(f"{_PREFIX}rlvc-python{_SUFFIX}")
+
+
+def _load(path: Path, kind: type[c.CDLL]) -> Any:
+    if not path.exists():
+        raise LibraryError(
+            f"{path}: no such library. It is made when the package is installed: pip install ."
+        )
+    try:
+        library = kind(str(path))
+        for name, (result, arguments) in FUNCTIONS.items():
+            function = getattr(library, name)
+            function.restype = result
+            function.argtypes = arguments
+    except (OSError, AttributeError) as error:
+        raise LibraryError(f"{path}: cannot be used: {error}") from error
+    return library
+
+
+def check_version(found: str, path: Path) -> None:
+    """Refuses a library of another version than the package's."""
+    if found != __version__:
+        raise LibraryError(f"{path}: is of version {found}, and the package of {__version__}")
+
+
+def check_layout(entries: dict[str, int], path: Path) -> None:
+    """Refuses a library whose structs are laid out otherwise than those above."""
+    for name, struct in STRUCTS.items():
+        expected = {name: c.sizeof(struct)}
+        for field in struct._fields_:
+            expected[f"{name}.{field[0]}"] = getattr(struct, field[0]).offset
+        for key, value in expected.items():
+            if entries.get(key) != value:
+                raise LibraryError(f"{path}: {key} lies at {entries.get(key)}, expected {value}")
+    known = set(STRUCTS)
+    for key in entries:
+        owner, _, field_name = key.partition(".")
+        if owner not in known or (field_name and not hasattr(STRUCTS[owner], field_name)):
+            raise LibraryError(f"{path}: {key} is not known here")
+
+
+def _entries(library: Any) -> dict[str, int]:
+    table = library.rlvc_shim_layout()
+    entries = {}
+    index = 0
+    while table[index].name is not None:
+        entries[table[index].name.decode()] = table[index].value
+        index += 1
+    return entries
+
+
+PATH = library_path()
+long_call: Any = _load(PATH, c.CDLL)
+check_version(long_call.rlvc_version().decode(), PATH)
+check_layout(_entries(long_call), PATH)
+call: Any = _load(PATH, c.PyDLL)
+
+
+def status_text(status: int) -> str:
+    """The library's own sentence for a status."""
+    return str(call.rlvc_status_text(status).decode())
