@@ -46,13 +46,9 @@ static wide widen(uint32_t bits) {
     return x;
 }
 
-/* x rounded to the nearest integer; x must be below 2^63. */
-static uint64_t nearest(const wide *x) {
-    int32_t shift = -x->exponent;
-    if (shift > 64)
-        return 0;
-    uint64_t whole = shift == 64 ? 0 : x->mantissa >> shift;
-    return whole + (x->mantissa >> (shift - 1) & 1u);
+/* The integer part of x, which must be below 2^63 but may have any fraction. */
+static uint64_t truncated(const wide *x) {
+    return x->exponent > -64 ? x->mantissa >> -x->exponent : 0;
 }
 
 /* The decimal digits of a positive float: returns an integer of exactly `digits` digits, of which the
@@ -64,18 +60,22 @@ static uint64_t decimal(uint32_t bits, uint32_t digits, int32_t *power) {
     for (uint32_t i = 1; i < digits; i++)
         low *= 10u;
     *power = (int32_t)digits - 1;
-    while (x.exponent > -1 || nearest(&x) >= low * 10u) { /* x := x / 10 */
+    while (x.exponent > -1 || truncated(&x) >= low * 10u) { /* x := x / 10 */
         x.mantissa /= 10u;
         normalize(&x);
         (*power)++;
     }
-    while (nearest(&x) < low) { /* x := x * 10 */
+    while (truncated(&x) < low) { /* x := x * 10 */
         x.mantissa = (x.mantissa >> 4) * 10u;
         x.exponent += 4;
         normalize(&x);
         (*power)--;
     }
-    return nearest(&x);
+    uint64_t whole = truncated(&x) + (x.mantissa >> (-x.exponent - 1) & 1u);
+    if (whole < low * 10u)
+        return whole;
+    (*power)++; /* 99.96 is 100 by three digits */
+    return low;
 }
 
 /* The digits of `whole` into text[0 .. count - 1], without the zeros at the end; returns their number. */
