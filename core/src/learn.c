@@ -106,16 +106,22 @@ static rlvc_status step_label(rlvc_agent *agent) {
 
 /* ------------------------------------------------------------------ SEARCH */
 
-/* Takes the result of the search in class `at`, and carries the split out if it is significant. */
-static void decide(rlvc_agent *agent) {
+/* What it is charged to decide upon a split: some logarithms. */
+#define DECIDE_UNITS 32u
+
+/* Takes the result of the search in class `at`, and carries the split out if it is significant. Returns
+ * the units used. */
+static uint32_t decide(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_split split;
     const void *feature = rlvc_search_result(&learner->work.search, &agent->space, &split);
-    if (!feature || !(split.log_p < rlvc_ln(agent->config.alpha)))
-        return;
+    if (!feature)
+        return 1;
+    if (!(split.log_p < rlvc_ln(agent->config.alpha)))
+        return DECIDE_UNITS;
     if (agent->tree.classes == agent->tree.classes_max) {
         agent->refused++;
-        return;
+        return DECIDE_UNITS;
     }
     uint32_t made = agent->tree.classes;
     split.class_id = learner->at;
@@ -131,6 +137,7 @@ static void decide(rlvc_agent *agent) {
     agent->last_split = agent->step;
     learner->made++;
     learner->splits++;
+    return DECIDE_UNITS;
 }
 
 static void end_round(rlvc_agent *agent) {
@@ -161,14 +168,12 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
                           agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0));
         learner->searching = 1;
     }
-    rlvc_status status = rlvc_search_step(search, &searching, budget, used);
-    if (search->done) {
-        decide(agent);
-        learner->searching = 0;
-        learner->at++;
-        *used += *used == 0;
-    }
-    return status;
+    if (!search->done)
+        return rlvc_search_step(search, &searching, budget, used);
+    *used = decide(agent);
+    learner->searching = 0;
+    learner->at++;
+    return RLVC_OK;
 }
 
 /* ------------------------------------------------------------------ the other phases */
@@ -193,11 +198,16 @@ static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
     return used;
 }
 
+/* What a unit of the solver's is charged: it is arithmetic, where others but look. */
+#define SOLVE_UNITS 2u
+
 static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
     rlvc_solver *solver = &agent->learner.work.solver;
     rlvc_solving solving = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
                             agent->config.discount, agent->config.tolerance};
-    uint32_t used = rlvc_solver_step(solver, &solving, &agent->values, budget);
+    uint32_t used =
+        SOLVE_UNITS *
+        rlvc_solver_step(solver, &solving, &agent->values, budget / SOLVE_UNITS);
     if (solver->done) {
         agent->sweeps = solver->sweeps;
         agent->residual = solver->residual;
@@ -251,6 +261,12 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
     return status;
 }
 
+/* The units that the phase needs to get on: some have steps that are not divided further. */
+static uint32_t needed(const rlvc_agent *agent) {
+    uint8_t phase = agent->learner.phase;
+    return phase == MODEL || phase == SEARCH ? RLVC_BUDGET_MIN : SOLVE_UNITS;
+}
+
 rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
     if (!agent || !progress)
         return RLVC_E_NULL;
@@ -264,9 +280,8 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     if (agent->learner.phase == IDLE)
         begin_step(agent);
     agent->busy = 1;
-    /* Every phase gets on with RLVC_BUDGET_MIN units, and none promises to with fewer. */
     while (status == RLVC_OK && agent->learner.phase != IDLE &&
-           (unbounded || budget - work >= RLVC_BUDGET_MIN)) {
+           (unbounded || budget - work >= needed(agent))) {
         uint32_t used = 0;
         status = step_phase(agent, unbounded ? budget : (uint32_t)(budget - work), &used);
         work += used;

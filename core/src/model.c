@@ -64,7 +64,8 @@ static void count_sample(rlvc_model *model, const rlvc_values *values, rlvc_samp
 uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
                          rlvc_sample *sample, void *scratch, uint32_t budget) {
     uint32_t used = 0;
-    while (budget - used >= RLVC_BUDGET_MIN && !model->done) {
+    /* A step of the sort is not divided further. */
+    while (!model->done && budget - used >= (model->phase == SORT ? RLVC_BUDGET_MIN : 1u)) {
         switch (model->phase) {
         case GROUP:
             used += rlvc_grouping_step(&model->grouping, aliasing, sample, values->first,

@@ -4,7 +4,8 @@
  * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates at a
  * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
  * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
- * group is put to it (ASK) and its feature counted (ANSWER). */
+ * group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
+ * (TEST_ALONE, TEST_TOGETHER). */
 #include "split.h"
 
 #include "real.h"
@@ -12,7 +13,7 @@
 #include "score.h"
 #include <string.h>
 
-enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, DONE };
+enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, TEST_ALONE, TEST_TOGETHER, DONE };
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
@@ -162,7 +163,7 @@ static rlvc_status propose(rlvc_search *search, const rlvc_searching *searching)
     for (uint32_t j = 0; j < written; j++)
         space->pool[j] = nothing;
     if (written == 0)
-        enter(search, DONE);
+        enter(search, TEST_ALONE);
     else
         next_group(search, space, DETECT, DONE);
     return RLVC_OK;
@@ -283,7 +284,7 @@ static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
     if (++search->column < search->block)
         return;
     search->first += search->block;
-    enter(search, search->block < space->features_at_once ? DONE : PROPOSE);
+    enter(search, search->block < space->features_at_once ? TEST_ALONE : PROPOSE);
 }
 
 /* ------------------------------------------------------------------ the domain's own oracle */
@@ -296,7 +297,7 @@ static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
     uint32_t at = search->at;
     if (group->cuts == 0 || at == size_of(group)) {
         search->action++;
-        next_group(search, space, ASK, DONE);
+        next_group(search, space, ASK, TEST_ALONE);
         return RLVC_OK;
     }
     if (space->cuts[group->word + at / 64u] >> at % 64u & 1u) {
@@ -348,6 +349,24 @@ static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) 
 
 /* ------------------------------------------------------------------ the whole */
 
+/* Finds the p-value of one of the winners, if there are any. */
+static uint32_t test(rlvc_search *search) {
+    const rlvc_pool *together = &search->together;
+    if (!(search->alone.evidence > 0.0f)) {
+        enter(search, DONE);
+        return 1;
+    }
+    if (search->phase == TEST_ALONE) {
+        (void)rlvc_chi2_survival(search->alone.statistic, 1, NULL, &search->alone_log_p);
+        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : DONE);
+    } else {
+        (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
+                                 &search->together_log_p);
+        enter(search, DONE);
+    }
+    return RLVC_TEST_UNITS;
+}
+
 /* One elementary step of the phase. */
 static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                            uint32_t *used) {
@@ -375,15 +394,25 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
         return RLVC_OK;
     case ASK:
         return ask(search, searching);
-    default:
+    case ANSWER:
         return answer(search, searching);
+    default:
+        *used = test(search);
+        return RLVC_OK;
     }
+}
+
+/* The units that the phase needs to get on: the steps of some are not divided further. */
+static uint32_t needed(const rlvc_search *search) {
+    int divided = search->phase == MARK || search->phase == PROPOSE || search->phase == CLOSE ||
+                  search->phase == ASK || search->phase == ANSWER;
+    return divided ? 1u : RLVC_BUDGET_MIN;
 }
 
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used) {
     *used = 0;
-    while (!search->done && budget - *used >= RLVC_BUDGET_MIN) {
+    while (!search->done && budget - *used >= needed(search)) {
         uint32_t units = 0;
         rlvc_status status = advance(search, searching, budget - *used, &units);
         if (status != RLVC_OK)
@@ -403,21 +432,20 @@ const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *
     about->samples = size_of(&space->group[alone->action]);
     about->score = alone->score;
     about->log_tests = log_features;
-    (void)rlvc_chi2_survival(alone->statistic, 1, NULL, &about->log_p);
     /* The domain's own oracle already counts a feature for each cutpoint, and makes no sum. */
     if (search->together.degrees > 0)
         about->log_tests += rlvc_ln((float)space->group[alone->action].cuts);
-    about->log_p += about->log_tests;
+    about->log_p = search->alone_log_p + about->log_tests;
     if (search->groups > 1 && search->together.degrees > 0) {
         const rlvc_pool *together = &search->together;
-        float log_p, log_tests = log_features + together->log_tests;
-        (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL, &log_p);
-        if (log_p + log_tests < about->log_p) {
+        float log_tests = log_features + together->log_tests;
+        float log_p = search->together_log_p + log_tests;
+        if (log_p < about->log_p) {
             about->action = space->actions;
             about->samples = search->samples;
             about->score = together->evidence / (float)search->samples;
             about->log_tests = log_tests;
-            about->log_p = log_p + log_tests;
+            about->log_p = log_p;
         }
         about->log_tests += rlvc_ln(2.0f);
         about->log_p += rlvc_ln(2.0f);

@@ -35,6 +35,9 @@ typedef struct rlvc_group {
     uint32_t word; /* where its words begin in the cutpoints and in each column */
 } rlvc_group;
 
+/* What a p-value is charged: a sum of dozens of terms (chi2.c). */
+#define RLVC_TEST_UNITS RLVC_BUDGET_MIN
+
 /* What the groups so far say about one feature of the block, together. */
 typedef struct rlvc_pool {
     float evidence;
@@ -98,6 +101,8 @@ typedef struct rlvc_search {
     uint32_t first;     /* number of the block's first candidate */
     uint32_t block;     /* candidates in the block */
     uint32_t column;    /* of the block */
+    float alone_log_p;    /* of the winners' statistics, not yet corrected */
+    float together_log_p;
     uint8_t phase;
     uint8_t done;
 } rlvc_search;
@@ -118,7 +123,8 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, con
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for each
  * sample marked or detected (with up to 64 features; without detect(), for each feature of each sample),
- * what sorting and the scan of each column are charged, and one for each feature of a block.
+ * what sorting and the scan of each column are charged, one for each feature of a block, and
+ * RLVC_TEST_UNITS for each of the two p-values.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);
