@@ -50,7 +50,7 @@ def test_help(tmp_path, arguments):
 def test_help_names_every_option(tmp_path):
     text = run("binary", "--help", cwd=tmp_path).stdout
     for option in ("criterion interactions steps gamma epsilon alpha seed runs maze slip distractors "
-                   "classes capacity json dot help version").split():
+                   "classes capacity json dot export-c help version").split():
         assert re.search(rf"--{option}\b", text), option
 
 
@@ -110,6 +110,8 @@ def check_refused(done, *parts):
     (["binary", "--distractors", "1018"], ["--distractors", "1017"]),
     (["binary", "--runs", "2", "--dot", "tree.dot"], ["--dot", "--runs"]),
     (["binary", "--json", "same", "--dot", "same"], ["--dot", "--json", "same"]),
+    (["binary", "--runs", "2", "--export-c", "maze.h"], ["--export-c", "--runs"]),
+    (["binary", "--dot", "same", "--export-c", "same"], ["--export-c", "--dot", "same"]),
     (["binary", "--json", ""], ["--json"]),
     (["binary", "--maze", "absent.txt"], ["--maze", "absent.txt", "No such file"]),
     (["binary", "--maze", "."], ["--maze", "'.'", "directory"]),
@@ -324,6 +326,13 @@ def test_field_is_what_its_script_makes():
     made = subprocess.run([sys.executable, "-B", MAZES / "make_field.py"], capture_output=True,
                           text=True, check=True).stdout
     assert made == (MAZES / "field64.txt").read_text()
+
+
+def test_export_c(tmp_path):
+    done = run("binary", "--interactions", "1500", "--export-c", "maze.h", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "unsigned maze_act(const unsigned char *percept)" in (tmp_path / "maze.h").read_text()
+    assert files(tmp_path) == ["maze.h"]
 
 
 def test_dot(tmp_path):

@@ -70,6 +70,7 @@ class Learner {
     void look_for_interrupt() const;
     void record(const StepRecord &step);
     std::string print(uint32_t format) const;
+    std::string export_c() const;
 
     const Options &options_;
     const gridworld_maze &maze_;
@@ -185,13 +186,20 @@ void Learner::look_for_interrupt() const {
     }
 }
 
+int append(void *ctx, const char *text, std::size_t bytes) {
+    static_cast<std::string *>(ctx)->append(text, bytes);
+    return 0;
+}
+
 std::string Learner::print(uint32_t format) const {
     std::string all;
-    const rlvc_write append = [](void *ctx, const char *text, std::size_t bytes) {
-        static_cast<std::string *>(ctx)->append(text, bytes);
-        return 0;
-    };
     check(rlvc_print(agent_, format, append, &all), "rlvc_print");
+    return all;
+}
+
+std::string Learner::export_c() const {
+    std::string all;
+    check(rlvc_export_c(agent_, "maze", append, &all, nullptr), "rlvc_export_c");
     return all;
 }
 
@@ -209,6 +217,7 @@ RunResult Learner::result() const {
     }
     result.tree_json = print(RLVC_PRINT_JSON);
     result.tree_dot = print(RLVC_PRINT_DOT);
+    result.policy_c = export_c();
     return result;
 }
 

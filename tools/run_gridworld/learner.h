@@ -39,7 +39,7 @@ struct RunResult {
     std::size_t memory_bytes = 0;
     double seconds = 0.0;
     Policy policy;
-    std::string tree_json, tree_dot;
+    std::string tree_json, tree_dot, policy_c;
     std::vector<StepRecord> history;
 
     bool optimal() const {

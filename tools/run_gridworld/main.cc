@@ -74,6 +74,7 @@ void run(int argc, char **argv) {
     const std::string task = describe_task(options, maze.get());
     OutputFile json("--json", options.json);
     OutputFile dot("--dot", options.dot);
+    OutputFile export_c("--export-c", options.export_c);
     const Optimum optimum(maze.get(), double{options.gamma}, double{options.slip});
     Screen screen;
     screen.print(task);
@@ -85,6 +86,9 @@ void run(int argc, char **argv) {
     }
     if (!options.dot.empty()) {
         dot.write(runs.front().tree_dot);
+    }
+    if (!options.export_c.empty()) {
+        export_c.write(runs.front().policy_c);
     }
     if (!options.json.empty()) {
         json.write(make_report(options, maze.get(), maze.rows(), runs));

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <iostream>
+#include <utility>
 
 namespace {
 
@@ -175,14 +176,29 @@ void add_files(CLI::App &binary, Options &options) {
     binary.add_option("--dot", options.dot, "write the tree for Graphviz; not with --runs")
         ->type_name("FILE")
         ->check(file_name());
+    binary
+        .add_option("--export-c", options.export_c,
+                    "write the policy as a C header for controllers; not with --runs")
+        ->type_name("FILE")
+        ->check(file_name());
 }
 
 void check_combination(const Options &options) {
-    if (!options.dot.empty() && options.runs > 0) {
-        throw Failure("--dot: writes one tree, and --runs makes several: leave one of them out");
-    }
-    if (!options.dot.empty() && options.dot == options.json) {
-        throw Failure("--dot: '" + options.dot + "' is the file of --json too");
+    const std::pair<const char *, std::string> files[] = {
+        {"--json", options.json}, {"--dot", options.dot}, {"--export-c", options.export_c}};
+    for (const auto &file : files) {
+        const std::string name = file.first;
+        if (file.second.empty()) {
+            continue;
+        }
+        if (name != "--json" && options.runs > 0) {
+            throw Failure(name + ": writes one tree, and --runs makes several: leave one of them out");
+        }
+        for (const auto *other = files; other->first != file.first; other++) {
+            if (other->second == file.second) {
+                throw Failure(name + ": '" + file.second + "' is the file of " + other->first + " too");
+            }
+        }
     }
 }
 

@@ -22,7 +22,7 @@ struct Options {
     uint32_t distractors = 11;
     uint32_t classes = 0;  // 0: see settle()
     uint32_t capacity = 0; // 0: see settle()
-    std::string json, dot; // files; empty: none
+    std::string json, dot, export_c; // files; empty: none
 };
 
 // Reads the command line. Throws Failure. What --help and --version ask for is printed here; the
