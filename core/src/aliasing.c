@@ -35,7 +35,7 @@ static uint32_t successor(const rlvc_replay *replay, uint32_t slot) {
 static float bellman_target(const rlvc_aliasing *aliasing, uint32_t slot) {
     const rlvc_replay *replay = aliasing->returns.replay;
     uint32_t next = successor(replay, slot);
-    float value = next == RLVC_NO_CLASS ? 0.0f : aliasing->values->value[next];
+    float value = next == RLVC_NO_CLASS ? 0.0f : aliasing->values->target[next];
     return replay->reward[slot] + aliasing->returns.discount * value;
 }
 

@@ -309,3 +309,16 @@ uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget) {
             left -= bits_step(scan);
     return budget - left;
 }
+
+void rlvc_scan_single(rlvc_scan *scan) {
+    if (scan->phase == COUNT)
+        (void)count_step(scan, RLVC_SCAN_WORD_UNITS);
+    else
+        (void)rlvc_scan_step(scan, ACTION_MAX); /* one action, as each costs something */
+}
+
+void rlvc_scan_mark(const rlvc_scan *scan, uint32_t word[3]) {
+    word[0] = scan->phase | (uint32_t)scan->level << 8;
+    word[1] = scan->word;
+    word[2] = scan->bit;
+}

@@ -60,4 +60,10 @@ void rlvc_scan_begin(rlvc_scan *scan, const uint64_t *column, const uint64_t *cu
  * little more than 64 scores a word. */
 uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget);
 
+/* Takes the smallest step that a cursor can stop after. Not to be called when done. */
+void rlvc_scan_single(rlvc_scan *scan);
+
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+void rlvc_scan_mark(const rlvc_scan *scan, uint32_t word[3]);
+
 #endif

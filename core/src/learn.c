@@ -10,23 +10,21 @@
  *     returns:   LABEL  GROUP SEARCH                 each round; the targets are facts
  *                MODEL SOLVE                         once, after the last
  *
- * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing.
+ * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing. In their place
+ * KEEP copies V for the residual's targets, or these would change while the step is under way.
  *
  * All that a phase knows lies in the learner and in the tables, so that a budget may end anywhere between
  * two elementary steps, and what comes out does not depend on where. */
-#include "rlvc/agent.h"
+#include "learn.h"
 
 #include "real.h"
-#include "state.h"
 #include <string.h>
-
-enum { IDLE, LABEL, GROUP, SEARCH, MODEL, SOLVE, FINISH };
 
 static uint32_t pairs(const rlvc_agent *agent) {
     return agent->tree.classes * agent->config.actions;
 }
 
-static rlvc_aliasing aliasing(const rlvc_agent *agent, uint8_t kind) {
+rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind) {
     rlvc_aliasing made;
     made.returns.replay = &agent->replay;
     made.returns.end = agent->learner.end;
@@ -39,22 +37,35 @@ static rlvc_aliasing aliasing(const rlvc_agent *agent, uint8_t kind) {
     return made;
 }
 
+rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion) {
+    rlvc_searching made = {
+        &agent->space,      &agent->replay, criterion, &agent->domain, agent->config.min_samples,
+        agent->config.score};
+    return made;
+}
+
+rlvc_solving rlvc_learner_solving(const rlvc_agent *agent) {
+    rlvc_solving made = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
+                         agent->config.discount, agent->config.tolerance};
+    return made;
+}
+
 static void enter(rlvc_agent *agent, uint8_t phase) {
     rlvc_learner *learner = &agent->learner;
     learner->phase = phase;
     learner->at = 0;
     learner->node = 0;
-    if (phase == LABEL) {
+    learner->classes = agent->tree.classes;
+    learner->searching = 0;
+    if (phase == RLVC_PHASE_LABEL) {
         learner->rounds++;
-    } else if (phase == GROUP) {
+    } else if (phase == RLVC_PHASE_GROUP) {
         rlvc_grouping_begin(&learner->work.grouping, pairs(agent));
-    } else if (phase == SEARCH) {
-        learner->classes = agent->tree.classes;
+    } else if (phase == RLVC_PHASE_SEARCH) {
         learner->made = 0;
-        learner->searching = 0;
-    } else if (phase == MODEL) {
+    } else if (phase == RLVC_PHASE_MODEL) {
         rlvc_model_begin(&learner->work.model, pairs(agent));
-    } else if (phase == SOLVE) {
+    } else if (phase == RLVC_PHASE_SOLVE) {
         rlvc_solver_begin(&learner->work.solver, agent->config.solver);
     }
 }
@@ -63,7 +74,7 @@ static void begin_step(rlvc_agent *agent) {
     agent->learner.end = rlvc_replay_freeze(&agent->replay);
     agent->learner.rounds = 0;
     agent->learner.splits = 0;
-    enter(agent, LABEL);
+    enter(agent, RLVC_PHASE_LABEL);
 }
 
 /* ------------------------------------------------------------------ LABEL */
@@ -74,9 +85,10 @@ static rlvc_status step_label(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_replay *replay = &agent->replay;
     if (learner->at == replay->frozen) {
-        int model_first = agent->config.criterion == RLVC_CRITERION_RESIDUAL &&
-                          !rlvc_is_incremental(&agent->config);
-        enter(agent, model_first ? MODEL : GROUP);
+        if (agent->config.criterion == RLVC_CRITERION_RETURNS)
+            enter(agent, RLVC_PHASE_GROUP);
+        else
+            enter(agent, rlvc_is_incremental(&agent->config) ? RLVC_PHASE_KEEP : RLVC_PHASE_MODEL);
         return RLVC_OK;
     }
     uint32_t slot = rlvc_replay_slot(replay, learner->at);
@@ -142,21 +154,19 @@ static uint32_t decide(rlvc_agent *agent) {
 
 static void end_round(rlvc_agent *agent) {
     if (agent->learner.made > 0)
-        enter(agent, LABEL);
+        enter(agent, RLVC_PHASE_LABEL);
     else if (agent->config.criterion == RLVC_CRITERION_RETURNS &&
              !rlvc_is_incremental(&agent->config))
-        enter(agent, MODEL);
+        enter(agent, RLVC_PHASE_MODEL);
     else
-        enter(agent, FINISH);
+        enter(agent, RLVC_PHASE_FINISH);
 }
 
 static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
     rlvc_search *search = &learner->work.search;
-    rlvc_aliasing criterion = aliasing(agent, agent->config.criterion);
-    rlvc_searching searching = {&agent->space,  &agent->replay,
-                                &criterion,     &agent->domain,
-                                agent->config.min_samples, agent->config.score};
+    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
+    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
     *used = 1;
     if (!learner->searching && learner->at == learner->classes) {
         end_round(agent);
@@ -178,23 +188,32 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
 
 /* ------------------------------------------------------------------ the other phases */
 
+/* Keeps V of class `at`, for targets. A unit each. */
+static void step_keep(rlvc_agent *agent) {
+    uint32_t c = agent->learner.at++;
+    if (c < agent->tree.classes)
+        agent->values.target[c] = agent->values.value[c];
+    else
+        enter(agent, RLVC_PHASE_GROUP);
+}
+
 static uint32_t step_group(rlvc_agent *agent, uint32_t budget) {
     rlvc_grouping *grouping = &agent->learner.work.grouping;
-    rlvc_aliasing criterion = aliasing(agent, agent->config.criterion);
-    uint32_t used = rlvc_grouping_step(grouping, &criterion, agent->space.sample,
-                                       agent->values.first, budget);
+    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
+    uint32_t used =
+        rlvc_grouping_step(grouping, &criterion, agent->space.sample, agent->values.first, budget);
     if (grouping->done)
-        enter(agent, SEARCH);
+        enter(agent, RLVC_PHASE_SEARCH);
     return used;
 }
 
 static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
     rlvc_model *model = &agent->learner.work.model;
-    rlvc_aliasing successor = aliasing(agent, RLVC_KEY_SUCCESSOR);
+    rlvc_aliasing successor = rlvc_learner_aliasing(agent, RLVC_KEY_SUCCESSOR);
     uint32_t used = rlvc_model_step(model, &successor, &agent->values, agent->space.sample,
                                     agent->space.columns, budget);
     if (model->done)
-        enter(agent, SOLVE);
+        enter(agent, RLVC_PHASE_SOLVE);
     return used;
 }
 
@@ -203,15 +222,14 @@ static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
 
 static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
     rlvc_solver *solver = &agent->learner.work.solver;
-    rlvc_solving solving = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
-                            agent->config.discount, agent->config.tolerance};
+    rlvc_solving solving = rlvc_learner_solving(agent);
     uint32_t used =
-        SOLVE_UNITS *
-        rlvc_solver_step(solver, &solving, &agent->values, budget / SOLVE_UNITS);
+        SOLVE_UNITS * rlvc_solver_step(solver, &solving, &agent->values, budget / SOLVE_UNITS);
     if (solver->done) {
         agent->sweeps = solver->sweeps;
         agent->residual = solver->residual;
-        enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? FINISH : GROUP);
+        enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH
+                                                                       : RLVC_PHASE_GROUP);
     }
     return used;
 }
@@ -232,26 +250,29 @@ static void step_finish(rlvc_agent *agent) {
     agent->replay.frozen = 0;
     agent->run = 0;
     agent->step++;
-    learner->phase = IDLE;
+    learner->phase = RLVC_PHASE_IDLE;
 }
 
 static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_status status = RLVC_OK;
     *used = 1;
     switch (agent->learner.phase) {
-    case LABEL:
+    case RLVC_PHASE_LABEL:
         status = step_label(agent);
         break;
-    case GROUP:
+    case RLVC_PHASE_KEEP:
+        step_keep(agent);
+        break;
+    case RLVC_PHASE_GROUP:
         *used = step_group(agent, budget);
         break;
-    case SEARCH:
+    case RLVC_PHASE_SEARCH:
         status = step_search(agent, budget, used);
         break;
-    case MODEL:
+    case RLVC_PHASE_MODEL:
         *used = step_model(agent, budget);
         break;
-    case SOLVE:
+    case RLVC_PHASE_SOLVE:
         *used = step_solve(agent, budget);
         break;
     default:
@@ -264,7 +285,7 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
 /* The units that the phase needs to get on: some have steps that are not divided further. */
 static uint32_t needed(const rlvc_agent *agent) {
     uint8_t phase = agent->learner.phase;
-    return phase == MODEL || phase == SEARCH ? RLVC_BUDGET_MIN : SOLVE_UNITS;
+    return phase == RLVC_PHASE_MODEL || phase == RLVC_PHASE_SEARCH ? RLVC_BUDGET_MIN : SOLVE_UNITS;
 }
 
 rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
@@ -277,10 +298,10 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     rlvc_status status = RLVC_OK;
     uint64_t work = 0;
     int unbounded = budget == RLVC_BUDGET_UNBOUNDED;
-    if (agent->learner.phase == IDLE)
+    if (agent->learner.phase == RLVC_PHASE_IDLE)
         begin_step(agent);
     agent->busy = 1;
-    while (status == RLVC_OK && agent->learner.phase != IDLE &&
+    while (status == RLVC_OK && agent->learner.phase != RLVC_PHASE_IDLE &&
            (unbounded || budget - work >= needed(agent))) {
         uint32_t used = 0;
         status = step_phase(agent, unbounded ? budget : (uint32_t)(budget - work), &used);
@@ -291,6 +312,6 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     progress->work = work < UINT32_MAX ? (uint32_t)work : UINT32_MAX;
     progress->rounds = agent->learner.rounds;
     progress->splits = agent->learner.splits;
-    progress->done = agent->learner.phase == IDLE;
+    progress->done = agent->learner.phase == RLVC_PHASE_IDLE;
     return status;
 }

@@ -92,3 +92,29 @@ uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_
     }
     return used;
 }
+
+void rlvc_model_single(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
+                       rlvc_sample *sample, void *scratch) {
+    if (model->phase == GROUP) {
+        (void)rlvc_grouping_step(&model->grouping, aliasing, sample, values->first, 1);
+        model->phase = model->grouping.done ? OPEN : GROUP;
+    } else if (model->phase == SORT) {
+        if (!model->sort.done)
+            rlvc_sort_single(&model->sort);
+        model->phase = model->sort.done ? COUNT : SORT;
+    } else {
+        (void)rlvc_model_step(model, aliasing, values, sample, scratch, 1);
+    }
+}
+
+void rlvc_model_mark(const rlvc_model *model, uint32_t word[8]) {
+    word[0] = model->phase;
+    if (model->phase == GROUP) {
+        rlvc_grouping_mark(&model->grouping, word + 1);
+        return;
+    }
+    word[1] = model->pair;
+    word[2] = model->at;
+    if (model->phase == SORT)
+        rlvc_sort_mark(&model->sort, word + 3);
+}

@@ -37,4 +37,11 @@ void rlvc_model_begin(rlvc_model *model, uint32_t pairs);
 uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
                          rlvc_sample *sample, void *scratch, uint32_t budget);
 
+/* Takes the smallest step that a cursor can stop after. Not to be called when done. */
+void rlvc_model_single(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
+                       rlvc_sample *sample, void *scratch);
+
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+void rlvc_model_mark(const rlvc_model *model, uint32_t word[8]);
+
 #endif

@@ -75,3 +75,10 @@ uint32_t rlvc_grouping_step(rlvc_grouping *grouping, const rlvc_aliasing *aliasi
     }
     return used;
 }
+
+void rlvc_grouping_mark(const rlvc_grouping *grouping, uint32_t word[4]) {
+    word[0] = grouping->phase;
+    word[1] = grouping->at;
+    word[2] = grouping->keyed.window.offset;
+    word[3] = grouping->keyed.window.summing;
+}

@@ -2,7 +2,9 @@
 /* Value iteration and policy iteration: see solver.h. */
 #include "solver.h"
 
+#include "real.h"
 #include "replay.h"
+#include <float.h>
 
 enum { SWEEP, IMPROVE };
 
@@ -137,4 +139,42 @@ uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc
         }
     }
     return used;
+}
+
+void rlvc_solver_mark(const rlvc_solver *solver, uint32_t word[10]) {
+    word[0] = solver->phase | (uint32_t)solver->changed << 8;
+    word[1] = solver->class_id;
+    word[2] = solver->action;
+    word[3] = solver->transition;
+    word[4] = solver->sweeps;
+    word[5] = rlvc_bits_of(solver->residual);
+    word[6] = rlvc_bits_of(solver->largest);
+    word[7] = rlvc_bits_of(solver->sum.sum);
+    word[8] = rlvc_bits_of(solver->sum.rest);
+    word[9] = solver->sum.weight;
+}
+
+int rlvc_solver_restore(rlvc_solver *solver, const rlvc_solving *solving, const rlvc_values *values,
+                        const uint32_t word[10]) {
+    if (word[0] >> 8 > solver->improve || (word[0] & 255u) > solver->improve ||
+        word[1] >= solving->classes || word[2] >= values->actions || word[4] >= solving->max_sweeps)
+        return 0;
+    solver->phase = (uint8_t)(word[0] & 255u);
+    solver->changed = (uint8_t)(word[0] >> 8);
+    solver->class_id = word[1];
+    solver->action = word[2];
+    solver->transition = word[3];
+    solver->sweeps = word[4];
+    solver->residual = rlvc_float_of(word[5]);
+    solver->largest = rlvc_float_of(word[6]);
+    solver->sum.sum = rlvc_float_of(word[7]);
+    solver->sum.rest = rlvc_float_of(word[8]);
+    solver->sum.weight = word[9];
+    for (uint32_t i = 5; i < 9; i++) {
+        if (!(magnitude(rlvc_float_of(word[i])) <= FLT_MAX))
+            return 0;
+    }
+    size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
+    return solver->phase == IMPROVE || (solver->transition >= values->first[pair] &&
+                                        solver->transition <= values->first[pair + 1u]);
 }

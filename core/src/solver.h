@@ -46,4 +46,12 @@ void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind);
 uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
                           uint32_t budget);
 
+/* The cursor as words, for a snapshot. */
+void rlvc_solver_mark(const rlvc_solver *solver, uint32_t word[10]);
+
+/* Puts a cursor that has just begun where such words, which need not be trusted, say.
+ * @return 0 if it cannot be there. O(1). */
+int rlvc_solver_restore(rlvc_solver *solver, const rlvc_solving *solving, const rlvc_values *values,
+                        const uint32_t word[10]);
+
 #endif

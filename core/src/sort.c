@@ -76,6 +76,8 @@ void rlvc_sort_begin(rlvc_sort *sort, rlvc_sample *sample, uint32_t count, void 
     sort->scratch = (uint32_t *)scratch;
     sort->level = 0;
     sort->level_end[0] = count;
+    sort->bucket = 0;
+    sort->unplaced = 0;
     begin_run(sort, 0);
     leave_levels(sort);
 }
@@ -228,4 +230,24 @@ uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget) {
         else
             left -= place_step(sort, left);
     return budget - left;
+}
+
+void rlvc_sort_single(rlvc_sort *sort) {
+    int counting = sort->at < sort->level_end[sort->level];
+    if (sort->phase == INSERT)
+        (void)insert_step(sort, SHORT_RUN + 1u);
+    else if (sort->phase == FIND)
+        (void)find_step(sort, BUCKETS_MAX / CLEARED_A_UNIT + 1u);
+    else if (sort->phase == COUNT)
+        (void)count_step(sort, counting ? 1u : BUCKETS_MAX / SUMMED_A_UNIT);
+    else
+        (void)place_step(sort, 3u);
+}
+
+void rlvc_sort_mark(const rlvc_sort *sort, uint32_t word[5]) {
+    word[0] = sort->phase | (uint32_t)sort->level << 8;
+    word[1] = sort->begin;
+    word[2] = sort->at;
+    word[3] = sort->bucket;
+    word[4] = sort->unplaced;
 }

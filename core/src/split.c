@@ -422,6 +422,38 @@ rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searchin
     return RLVC_OK;
 }
 
+rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *searching) {
+    uint32_t used = 0;
+    if (search->phase == SORT && !search->inner.sort.done) {
+        rlvc_sort_single(&search->inner.sort);
+        if (search->inner.sort.done)
+            enter(search, MARK);
+    } else if (search->phase == MARK) {
+        (void)mark(search, searching, 1);
+    } else if (search->phase == SCAN) {
+        rlvc_scan_single(&search->inner.scan);
+        if (search->inner.scan.done)
+            close_column(search, searching);
+    } else {
+        return advance(search, searching, RLVC_BUDGET_MIN, &used);
+    }
+    return RLVC_OK;
+}
+
+void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]) {
+    word[0] = search->phase;
+    word[1] = search->action;
+    word[2] = search->at;
+    word[3] = search->first;
+    word[4] = search->column;
+    if (search->phase == SORT)
+        rlvc_sort_mark(&search->inner.sort, word + 5);
+    else if (search->phase == SCAN)
+        rlvc_scan_mark(&search->inner.scan, word + 5);
+    else if (search->phase == ANSWER)
+        word[5] = search->inner.answer.at;
+}
+
 const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
                                rlvc_split *about) {
     const rlvc_single *alone = &search->alone;

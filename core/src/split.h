@@ -129,6 +129,13 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, con
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);
 
+/* Takes the smallest step that a cursor can stop after. Not to be called when done.
+ * @return RLVC_OK; RLVC_E_CALLBACK. */
+rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *searching);
+
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]);
+
 /* Once done: fills action, samples, log_tests, score and log_p of *about.
  * @return the feature, in the workspace; null if there is none to tell the samples apart. O(degrees). */
 const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,

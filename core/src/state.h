@@ -20,7 +20,7 @@ typedef struct rlvc_learner {
     uint32_t end;        /* N: interactions at positions [0, end) are the database */
     uint32_t at;         /* position, pair or class, by phase */
     uint32_t node;       /* where the walk of the percept at position `at` is */
-    uint32_t classes;    /* when this round began */
+    uint32_t classes;    /* when this phase began */
     uint32_t rounds;     /* begun in this step */
     uint32_t splits;     /* made in this step */
     uint32_t made;       /* made in this round */

@@ -24,6 +24,16 @@ const char *rlvc_status_text(rlvc_status status) {
         return "a callback failed";
     case RLVC_E_REENTERED:
         return "a callback called back into the agent that had called it";
+    case RLVC_E_STORE:
+        return "a read, write, erase or sync of the store failed";
+    case RLVC_E_EMPTY:
+        return "the store holds no snapshot";
+    case RLVC_E_DAMAGED:
+        return "what is stored was cut short or changed";
+    case RLVC_E_VERSION:
+        return "what is stored is of a version that this library does not read";
+    case RLVC_E_MISMATCH:
+        return "what is stored is of another config or another domain";
     }
     return "not a status of rlvc";
 }

@@ -11,6 +11,9 @@ void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config
     values->value = rlvc_arena_carve(arena, config->classes, sizeof *values->value);
     values->policy = rlvc_arena_carve(arena, config->classes, sizeof *values->policy);
     values->trial = rlvc_arena_carve(arena, config->classes, sizeof *values->trial);
+    values->target = config->solver == RLVC_SOLVER_Q_LEARNING || config->solver == RLVC_SOLVER_SARSA
+                         ? values->reward
+                         : values->value;
     values->actions = config->actions;
     values->optimistic = config->untried == RLVC_UNTRIED_OPTIMISTIC;
     values->optimistic_value = config->optimistic_value;

@@ -8,6 +8,9 @@
 typedef struct rlvc_values {
     float *q;        /* [classes_max][actions] Q(c, a) */
     float *reward;   /* [classes_max][actions] mean reward; the batch solvers' */
+    float *target;   /* [classes_max] V as the targets of a learning step have it. A batch solver's is
+                        `value`; an incremental one's changes with each observation, so that a copy is
+                        kept, in `reward`, for which it has no use */
     uint32_t *tried; /* [classes_max][actions] interactions behind Q(c, a); 0: untried */
     uint32_t *first; /* [classes_max * actions + 1] where the samples of (c, a) begin: see samples.h */
     float *value;    /* [classes_max] V(c) */

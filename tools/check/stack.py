@@ -23,8 +23,8 @@ FLAGS = ["-std=c99", "-ffp-contract=off", "-mno-red-zone", "-fno-stack-protector
          "-fcf-protection=none", "-fstack-usage", "-fcallgraph-info=su"]
 # What a compiler makes calls of on its own, and the bytes that the table grants each.
 EXTERNAL = {"memcpy": 64, "memmove": 64, "memset": 64, "memcmp": 64, "strlen": 64}
-# The pointers that the core may call through: the domain's callbacks, and the caller's write.
-INDIRECT = re.compile(r"\b(exhibits|candidates|detect|oracle|name|write)\s*\(")
+# The pointers that the core may call through: the domain's callbacks, and those of the caller's files.
+INDIRECT = re.compile(r"\b(exhibits|candidates|detect|oracle|name|read|write|erase|sync)\s*\(")
 PLACEHOLDER = "__indirect_call"
 
 Function = collections.namedtuple("Function", "name place bytes kind")

@@ -8,6 +8,8 @@
 #include "rlvc/chi2.h"
 #include "rlvc/domain.h"
 #include "rlvc/export.h"
+#include "rlvc/log.h"
+#include "rlvc/snapshot.h"
 #include "rlvc/status.h"
 
 #define RLVC_VERSION_MAJOR 0

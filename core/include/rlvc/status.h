@@ -30,7 +30,12 @@ typedef enum rlvc_status {
     RLVC_E_BUSY = -7,     /* the ring is full and its oldest interaction is still being learnt from:
                              finish the learning first */
     RLVC_E_CALLBACK = -8, /* a callback of the domain, or the caller's write, failed */
-    RLVC_E_REENTERED = -9 /* a callback called back into the agent that had called it */
+    RLVC_E_REENTERED = -9, /* a callback called back into the agent that had called it */
+    RLVC_E_STORE = -10,    /* a read, write, erase or sync of the caller's store failed */
+    RLVC_E_EMPTY = -11,    /* the store holds no snapshot */
+    RLVC_E_DAMAGED = -12,  /* what is stored was cut short or changed */
+    RLVC_E_VERSION = -13,  /* what is stored is of a version that this library does not read */
+    RLVC_E_MISMATCH = -14  /* what is stored is of another config or another domain */
 } rlvc_status;
 
 /* A constant English sentence for a status; never null, also for a value that is none. O(1). */

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* A learning step's phases, and what they look at: see learn.c. */
+#ifndef RLVC_SRC_LEARN_H
+#define RLVC_SRC_LEARN_H
+
+#include "state.h"
+
+/* learner.phase. A snapshot holds these numbers (SPEC.md). */
+enum {
+    RLVC_PHASE_IDLE,
+    RLVC_PHASE_LABEL,
+    RLVC_PHASE_KEEP,
+    RLVC_PHASE_MODEL,
+    RLVC_PHASE_SOLVE,
+    RLVC_PHASE_GROUP,
+    RLVC_PHASE_SEARCH,
+    RLVC_PHASE_FINISH
+};
+
+/* Keys of the step's samples. @param kind RLVC_CRITERION_* or RLVC_KEY_SUCCESSOR */
+rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind);
+
+/* What a search of the step looks at. */
+rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion);
+
+/* What a solution of the step looks at. */
+rlvc_solving rlvc_learner_solving(const rlvc_agent *agent);
+
+#endif
