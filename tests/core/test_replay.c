@@ -114,7 +114,8 @@ static void test_check_finds_damage(void **state) {
         {&replay.reward[0], 4, 0x7fc00000},      /* not a number */
         {&replay.flags[0], 1, 0},                /* the oldest has no interaction */
         {&replay.flags[2], 1, 0},                /* two in a row have none */
-        {&replay.flags[5], 1, RLVC_SLOT_STORED}, /* the current percept has one */
+        {&replay.flags[5], 1, RLVC_SLOT_STORED}, /* the current percept */
+        {&replay.flags[5], 1, RLVC_SLOT_STORED | RLVC_SLOT_TERMINATED}, /* has one */
     };
     for (size_t i = 0; i < sizeof damages / sizeof damages[0]; i++) {
         fill();
