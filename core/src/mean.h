@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Means over very many samples, in binary32.
  *
- * A plain float sum of a million terms is wrong in its fourth digit. This one also sums what rounding
- * takes from it at each addition, which Knuth's two-sum has exactly:
+ * A plain float sum of a million terms is wrong in its fourth digit. This one carries along what
+ * rounding took from it: the true sum is sum + rest, |rest| being at most half a unit in the last
+ * place of sum. Adding x is Knuth's two-sum,
  *
- *     s = sum + x,  v = s - sum,  lost = (sum - (s - v)) + (x - v)   (sum + x - s),
+ *     s = sum + x,  v = s - sum,  lost = (sum - (s - v)) + (x - v)   (exactly sum + x - s),
  *
- * and the mean is that of sum + rest. The two sums do not wait for each other. `rest` is itself rounded,
- * to some 2^-47 of the sum an addition, and a mean so errs by at most 2e-7 of the mean of the |terms|
- * besides. */
+ * and a renormalisation of (s, rest + lost). Each addition so errs by some 2^-47 of the sum, and a
+ * mean by at most 2e-7 of the mean of the |terms| besides. */
 #ifndef RLVC_SRC_MEAN_H
 #define RLVC_SRC_MEAN_H
 
@@ -32,8 +32,9 @@ static inline void rlvc_sum_add(rlvc_sum *total, float term, uint32_t weight) {
     float s = total->sum + x;
     float v = s - total->sum;
     float lost = (total->sum - (s - v)) + (x - v);
-    total->sum = s;
-    total->rest += lost;
+    float rest = total->rest + lost;
+    total->sum = s + rest;
+    total->rest = rest - (total->sum - s);
     total->weight += weight;
 }
 
