@@ -60,8 +60,8 @@ typedef struct rlvc_vision_error {
  *
  * - INVARIANTS: the published colour differential invariants of first order, v = (R, |grad R|^2, G,
  *   |grad G|^2, B, |grad B|^2, grad R . grad G, grad R . grad B). A turn leaves them alone.
- * - SQRT_INVARIANTS: the same, with the signed square root of the five terms of second degree, which
- *   makes them nearer to normally distributed.
+ * - SQRT_INVARIANTS: the same, with the signed square root of the five terms of second degree,
+ *   which makes them nearer to normally distributed.
  * - SIFT_UPRIGHT: SIFT, its window not turned. Length 1.
  * - SIFT: SIFT, turned to the point's own direction. Length 1.
  * - ORB: its 256 bits, turned likewise, as +-1/16. Length 1; the distance is the square root of the
@@ -94,9 +94,9 @@ typedef struct rlvc_vision_config {
                             2 radius + 1 around it, [1, 31]. Default 3 */
     uint8_t form;        /* RLVC_FORM_*. Default RLVC_FORM_FLOAT */
     uint8_t normalise;   /* 1: each channel of a picture is first brought to mean 128 and standard
-                            deviation 64, which removes changes of light of the form a c + b;
-                            0: not. SIFT and ORB take no notice of it but in the choice of points.
-                            Default 1 */
+                            deviation 64, which removes changes of light of the form a c + b, and
+                            absolute colour with them; 0: not. SIFT and ORB take no notice of it but
+                            in the choice of points. Default 0 */
     uint8_t reserved[2]; /* 0 */
     float sd;            /* pixels: scale of the derivatives of the Harris response, [0.5, 4].
                             Default 1 */
@@ -105,8 +105,8 @@ typedef struct rlvc_vision_config {
     float threshold;     /* a point's response exceeds this share of the picture's largest, [0, 1).
                             Default 0.001 */
     float sigma;         /* pixels: scale of the vectors, [0.5, 8]: of the Gaussian derivatives, or
-                            SIFT's scale (its window is 12 sigma wide); ORB's window is fixed.
-                            Default 2.5 */
+                            SIFT's scale (its window is 12 sigma wide); ORB's window is fixed, and
+                            only its direction is taken at this scale. Default 2.5, SIFT 6, ORB 5 */
 } rlvc_vision_config;
 
 /* Fills *config with the defaults for a descriptor. O(1).
@@ -274,7 +274,7 @@ RLVC_API rlvc_vision_status rlvc_fitter_create(const rlvc_vision_config *config,
  * @param object any number. Pictures of one object are not asked whether they exhibit each other's
  *               features when tau is sought; a caller who knows no objects gives each picture a
  *               number of its own.
- * @return RLVC_VISION_OK; RLVC_VISION_E_PICTURE; RLVC_VISION_E_RANGE (2^24 vectors are held). */
+ * @return RLVC_VISION_OK; RLVC_VISION_E_PICTURE; RLVC_VISION_E_RANGE (2^20 vectors are held). */
 RLVC_API rlvc_vision_status rlvc_fitter_add(rlvc_fitter *fitter, const rlvc_picture *picture,
                                             uint32_t object, rlvc_vision_error *error);
 

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "config.h"
+#include "failure.h"
+#include "metric.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace rlvc {
+namespace {
+
+using nlohmann::json;
+
+constexpr int version = 1;
+constexpr size_t text_max = size_t{1} << 24;
+
+// In the order of RLVC_METRIC_*.
+constexpr const char *kinds[] = {"plain", "covariance", "change"};
+
+[[noreturn]] void refuse(const std::string &text) {
+    throw Failure(RLVC_VISION_E_FORMAT, text);
+}
+
+const json &member(const json &object, const char *key) {
+    const auto found = object.find(key);
+    if (found == object.end())
+        refuse(std::string("\"") + key + "\" is missing");
+    return *found;
+}
+
+float real(const json &value, const char *key, float low, float high) {
+    const double number = value.is_number() ? value.get<double>() : NAN;
+    if (!(number >= static_cast<double>(low) && number <= static_cast<double>(high)))
+        refuse(std::string("\"") + key + "\" is or holds " + value.dump().substr(0, 40) +
+               ", which is not a number within its range");
+    return static_cast<float>(number);
+}
+
+float real(const json &object, const char *key, float high) {
+    return real(member(object, key), key, 0, high);
+}
+
+uint32_t whole(const json &object, const char *key) {
+    const json &value = member(object, key);
+    if (!value.is_number_unsigned() || value.get<uint64_t>() > UINT32_MAX)
+        refuse(std::string("\"") + key + "\" is not a whole number within its range");
+    return value.get<uint32_t>();
+}
+
+std::vector<float> reals(const json &object, const char *key, size_t count) {
+    const json &list = member(object, key);
+    if (!list.is_array() || list.size() != count)
+        refuse(std::string("\"") + key + "\" is not a list of " + std::to_string(count) +
+               " numbers");
+    std::vector<float> numbers;
+    for (const json &value : list)
+        numbers.push_back(real(value, key, -metric_number_max, metric_number_max));
+    return numbers;
+}
+
+json json_of(const rlvc_vision_config &config) {
+    return {{"descriptor", rlvc_descriptor_name(config.descriptor)},
+            {"points", config.points},
+            {"radius", config.radius},
+            {"form", config.form},
+            {"normalise", config.normalise},
+            {"sd", config.sd},
+            {"si", config.si},
+            {"k", config.k},
+            {"threshold", config.threshold},
+            {"sigma", config.sigma}};
+}
+
+uint8_t byte(const json &object, const char *key) {
+    const uint32_t number = whole(object, key);
+    if (number > UINT8_MAX)
+        refuse(std::string("\"") + key + "\" is out of range");
+    return static_cast<uint8_t>(number);
+}
+
+rlvc_vision_config config_of(const json &object) {
+    const json &name = member(object, "descriptor");
+    rlvc_vision_config config{};
+    if (!name.is_string() || rlvc_descriptor_named(name.get_ref<const std::string &>().c_str(),
+                                                   &config.descriptor) != RLVC_VISION_OK)
+        refuse("\"descriptor\" is " + name.dump().substr(0, 40) + ", which is none that is known");
+    config.points = whole(object, "points");
+    config.radius = whole(object, "radius");
+    config.form = byte(object, "form");
+    config.normalise = byte(object, "normalise");
+    constexpr float any = 1e6f; // check() knows better
+    config.sd = real(object, "sd", any);
+    config.si = real(object, "si", any);
+    config.k = real(object, "k", any);
+    config.threshold = real(object, "threshold", any);
+    config.sigma = real(object, "sigma", any);
+    try {
+        check(config);
+    } catch (const Failure &failure) {
+        refuse(failure.what());
+    }
+    return config;
+}
+
+uint32_t kind_of(const json &object) {
+    const json &name = member(object, "kind");
+    for (uint32_t kind = 0; kind < std::size(kinds); kind++)
+        if (name == kinds[kind])
+            return kind;
+    refuse("\"kind\" is " + name.dump().substr(0, 40) + ", which is none that is known");
+}
+
+[[noreturn]] void refuse_file(const char *doing, const char *path) {
+    throw Failure(RLVC_VISION_E_FILE,
+                  std::string("cannot ") + doing + " " + path + ": " + std::strerror(errno));
+}
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE *)>;
+
+// The name of the folder's entry has to last, too.
+void sync_folder_of(const std::string &path) {
+    const size_t slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0)
+        return; // a folder that may be written to but not read
+    fsync(opened);
+    close(opened);
+}
+
+} // namespace
+
+std::string text_of(const rlvc_metric &metric) {
+    json object = json_of(metric.config);
+    object["rlvc_metric"] = version;
+    object["kind"] = kinds[metric.kind];
+    object["tau"] = metric.tau;
+    object["step"] = metric.step;
+    if (metric.kind != RLVC_METRIC_PLAIN) {
+        object["mean"] = metric.mean;
+        object["matrix"] = metric.matrix;
+    }
+    return object.dump() + "\n";
+}
+
+rlvc_metric metric_of(const char *text, size_t bytes) {
+    if (bytes > text_max)
+        refuse("the text is longer than any metric's");
+    const json object = json::parse(text, text + bytes, nullptr, false);
+    if (!object.is_object())
+        refuse("the text is no JSON object");
+    if (whole(object, "rlvc_metric") != version)
+        refuse("the metric is of version " + member(object, "rlvc_metric").dump() +
+               ", but only 1 is known");
+    rlvc_metric metric{};
+    metric.config = config_of(object);
+    metric.kind = kind_of(object);
+    metric.tau = real(member(object, "tau"), "tau", 1e-12f, metric_number_max);
+    metric.step = real(member(object, "step"), "step", 1e-12f, metric_number_max);
+    if (metric.kind != RLVC_METRIC_PLAIN) {
+        const size_t n = rlvc_descriptor_dimensions(metric.config.descriptor);
+        metric.mean = reals(object, "mean", n);
+        metric.matrix = reals(object, "matrix", n * n);
+    }
+    return metric;
+}
+
+std::string read_file(const char *path) {
+    const File file(std::fopen(path, "rb"), std::fclose);
+    if (file == nullptr)
+        refuse_file("open", path);
+    std::string text;
+    char part[4096];
+    // One byte past the limit is enough to see that the file is too long.
+    while (text.size() <= text_max) {
+        const size_t got = std::fread(part, 1, sizeof part, file.get());
+        if (got == 0)
+            break;
+        text.append(part, got);
+    }
+    if (std::ferror(file.get()) != 0)
+        refuse_file("read", path);
+    return text;
+}
+
+void replace_file(const char *path, const std::string &text) {
+    const std::string beside = std::string(path) + ".new";
+    File file(std::fopen(beside.c_str(), "wb"), std::fclose);
+    if (file == nullptr)
+        refuse_file("open", beside.c_str());
+    const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
+                         std::fflush(file.get()) == 0 && fsync(fileno(file.get())) == 0;
+    const bool closed = std::fclose(file.release()) == 0;
+    if (!written || !closed || std::rename(beside.c_str(), path) != 0) {
+        const int cause = errno;
+        std::remove(beside.c_str());
+        errno = cause;
+        refuse_file("write", path);
+    }
+    sync_folder_of(path);
+}
+
+} // namespace rlvc

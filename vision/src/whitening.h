@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The matrix W under which the spread of some vectors becomes the same in all directions.
+#ifndef RLVC_VISION_WHITENING_H
+#define RLVC_VISION_WHITENING_H
+
+#include <cstddef>
+#include <vector>
+
+namespace rlvc {
+
+// The mean of vectors of n numbers, one after another; there is one at least.
+std::vector<float> mean_of(const std::vector<float> &vectors, size_t n);
+
+// W [n][n] with W^T W = S^-1, where S is the mean of (v - centre)(v - centre)^T.
+//
+// S is scaled to a diagonal of 1 first, and eigenvalues of the result below a thousandth (their
+// mean is 1) are taken for a thousandth: directions that hardly vary, as of pictures without
+// colour, or for want of vectors, must not outweigh all others. A number that never varies is left
+// as it is.
+std::vector<float> whitening_of(const std::vector<float> &vectors, const std::vector<float> &centre,
+                                size_t n);
+
+} // namespace rlvc
+
+#endif
