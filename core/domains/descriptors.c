@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: MIT */
+/* The domain of local descriptors (sections 3 and 6.2).
+ *
+ * Distances stay squared. That of two float vectors is summed in eight lanes, number i in lane i mod 8,
+ * which compilers make vector code of without leave to reorder; lane by lane it only grows, and so does
+ * the rounded sum of the lanes. Hence a sum that is above the limit after a part of the numbers is above
+ * it after all of them, and to stop there changes no answer. Int8 vectors have distances of at most
+ * 256 * 255^2 < 2^24, which a float holds exactly.
+ *
+ * The margin rule. A feature is worth most if its radius passes between percepts, not through a crowd of
+ * them: the same thing seen from elsewhere, or in other light, is a little nearer or farther. So the
+ * distances of the class's percepts that lie within [tau / m, m tau] are counted in BINS equal intervals,
+ * and the radius is put into the longest row of empty ones which has a percept on both sides. It is put near
+ * the far end: what was never seen of the thing itself tends to be farther off than what was. */
+#include "rlvc/descriptors.h"
+
+#include <string.h>
+
+#define LANES 8u
+#define CHUNK 32u
+#define BINS 64u
+#define GAP_MIN 8u    /* bins; narrower gaps are refused */
+#define GAP_BEYOND 8u /* the radius leaves 1 / GAP_BEYOND of the gap beyond it */
+#define MEASURED 512u /* percepts */
+#define NUMBER_MAX 1e15f
+#define PERCEPT_BYTES_MAX (1u << 20)
+#define REFUSED (-1.0f)
+
+/* ------------------------------------------------------------------ records */
+
+static uint32_t vector_bytes(const rlvc_descriptors *d) {
+    return RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form);
+}
+
+static uint32_t feature_bytes(const rlvc_descriptors *d) {
+    return RLVC_DESCRIPTORS_FEATURE_BYTES(d->dimensions, d->form);
+}
+
+static uint32_t count_of(const void *percept) {
+    uint32_t count;
+    memcpy(&count, percept, sizeof count);
+    return count;
+}
+
+/* Vector i of a percept; with i = 0 also the vector of a feature. */
+static const void *vector_at(const rlvc_descriptors *d, const void *record, uint32_t i) {
+    return (const unsigned char *)record + 4u + (size_t)i * vector_bytes(d);
+}
+
+float rlvc_descriptors_radius(const void *feature) {
+    float radius;
+    memcpy(&radius, feature, sizeof radius);
+    return radius;
+}
+
+/* ------------------------------------------------------------------ distances */
+
+static inline float sum_of(const float lane[LANES]) {
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+/* The squared distance; if it is above the limit, any number above the limit. */
+static float between_floats(const float *a, const float *b, uint32_t n, float limit) {
+    float lane[LANES] = {0.0f};
+    uint32_t i = 0;
+    for (; n - i >= CHUNK; i += CHUNK) {
+        for (uint32_t k = 0; k < CHUNK; k++) {
+            const float difference = a[i + k] - b[i + k];
+            lane[k % LANES] += difference * difference;
+        }
+        if (sum_of(lane) > limit)
+            return sum_of(lane);
+    }
+    for (; n - i >= LANES; i += LANES)
+        for (uint32_t k = 0; k < LANES; k++) {
+            const float difference = a[i + k] - b[i + k];
+            lane[k] += difference * difference;
+        }
+    for (uint32_t k = 0; k < n - i; k++) {
+        const float difference = a[i + k] - b[i + k];
+        lane[k] += difference * difference;
+    }
+    return sum_of(lane);
+}
+
+static inline int32_t between_chunks(const int8_t *a, const int8_t *b, uint32_t n) {
+    int32_t sum = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const int16_t difference = (int16_t)(a[k] - b[k]);
+        sum += (int32_t)difference * difference;
+    }
+    return sum;
+}
+
+static float between_bytes(const int8_t *a, const int8_t *b, uint32_t n, float limit) {
+    int32_t sum = 0;
+    uint32_t i = 0;
+    for (; n - i >= CHUNK; i += CHUNK) {
+        sum += between_chunks(a + i, b + i, CHUNK);
+        if ((float)sum > limit)
+            return (float)sum;
+    }
+    return (float)(sum + between_chunks(a + i, b + i, n - i));
+}
+
+/* The squared distance of vector i of a percept from a feature's, or any number above the limit. */
+static inline float distance(const rlvc_descriptors *d, const void *percept, uint32_t i,
+                             const void *feature, float limit) {
+    const void *a = vector_at(d, percept, i);
+    const void *b = vector_at(d, feature, 0);
+    if (d->form == RLVC_DESCRIPTORS_INT8)
+        return between_bytes((const int8_t *)a, (const int8_t *)b, d->dimensions, limit);
+    return between_floats((const float *)a, (const float *)b, d->dimensions, limit);
+}
+
+static uint8_t within(const rlvc_descriptors *d, const void *percept, const void *feature) {
+    const float radius = rlvc_descriptors_radius(feature);
+    const float limit = radius * radius;
+    const uint32_t count = radius < 0.0f ? 0 : count_of(percept);
+    for (uint32_t i = 0; i < count; i++)
+        if (distance(d, percept, i, feature, limit) <= limit)
+            return 1;
+    return 0;
+}
+
+/* The least squared distance of the first `count` vectors, at most `limit`: there is none nearer than that
+ * if it is `limit`. *point, where it is. */
+static float nearest(const rlvc_descriptors *d, const void *percept, uint32_t count,
+                     const void *feature, float limit, uint32_t *point) {
+    float least = limit;
+    for (uint32_t i = 0; i < count; i++) {
+        const float squared = distance(d, percept, i, feature, least);
+        if (squared < least) {
+            least = squared;
+            *point = i;
+        }
+    }
+    return least;
+}
+
+static int exhibits(void *ctx, const void *percept, const void *feature, uint8_t *present) {
+    const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;
+    if (count_of(percept) > d->points)
+        return -1;
+    *present = within(d, percept, feature);
+    return 0;
+}
+
+/* A percept at a time, while it is in the cache, against the whole block of features. */
+static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t n,
+                  const void *features, uint32_t m, uint64_t *columns) {
+    const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;
+    uint64_t column[RLVC_DETECT_FEATURES] = {0};
+    for (uint32_t i = 0; i < n; i++) {
+        const void *percept = rlvc_samples_percept(samples, first + i);
+        const unsigned char *feature = (const unsigned char *)features;
+        if (count_of(percept) > d->points)
+            return -1;
+        for (uint32_t j = 0; j < m; j++, feature += feature_bytes(d))
+            column[j] |= (uint64_t)within(d, percept, feature) << i;
+    }
+    memcpy(columns, column, m * sizeof *columns);
+    return 0;
+}
+
+/* ------------------------------------------------------------------ the margin rule */
+
+/* What a vector's distances leave empty. */
+typedef struct gap {
+    uint32_t width; /* bins; 0: there is none */
+    float radius;   /* in it */
+} gap;
+
+/* The bin of a squared distance in [edge[0], edge[BINS]). */
+static uint32_t bin_of(const float edge[BINS + 1u], float squared) {
+    uint32_t low = 0, high = BINS;
+    while (high - low > 1u) {
+        const uint32_t middle = (low + high) / 2u;
+        if (squared < edge[middle])
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
+/* The longest row of empty bins with a percept on both sides, of equals the nearest. `below` percepts are
+ * nearer than all bins, and `measured` are there in all. */
+static gap widest(const uint32_t bin[BINS], uint32_t below, uint32_t measured, float low,
+                  float step) {
+    gap best = {0, REFUSED};
+    uint32_t row = 0;
+    for (uint32_t b = 0; b < BINS && below < measured; b++) {
+        row = bin[b] == 0 ? row + 1u : 0;
+        below += bin[b];
+        if (row > best.width && below > 0) {
+            best.width = row;
+            best.radius = low + step * ((float)(b + 1u) - (float)row / (float)GAP_BEYOND);
+        }
+    }
+    return best;
+}
+
+/* Measures a feature's vector against the class. */
+static int measure(const rlvc_descriptors *d, const rlvc_samples *samples, const void *feature,
+                   gap *found) {
+    const float low = d->radius / d->margin;
+    const float step = (d->radius * d->margin - low) / (float)BINS;
+    const uint32_t measured = samples->count < MEASURED ? samples->count : MEASURED;
+    float edge[BINS + 1u];
+    uint32_t bin[BINS] = {0}, below = 0, point = 0;
+    for (uint32_t b = 0; b <= BINS; b++)
+        edge[b] = (low + step * (float)b) * (low + step * (float)b);
+    for (uint32_t i = 0; i < measured; i++) {
+        const uint32_t at = (uint32_t)((uint64_t)i * samples->count / measured);
+        const void *percept = rlvc_samples_percept(samples, at);
+        const uint32_t count = count_of(percept);
+        if (count > d->points)
+            return -1;
+        const float squared = nearest(d, percept, count, feature, edge[BINS], &point);
+        if (squared < edge[0])
+            below++;
+        else if (squared < edge[BINS])
+            bin[bin_of(edge, squared)]++;
+    }
+    *found = widest(bin, below, measured, low, step);
+    return 0;
+}
+
+/* ------------------------------------------------------------------ candidates */
+
+/* A number that looks random (an integer hash by multiplication). */
+static uint32_t scatter(uint32_t x) {
+    x = (x ^ x >> 16) * 0x45d9f3bu;
+    x = (x ^ x >> 16) * 0x45d9f3bu;
+    return x ^ x >> 16;
+}
+
+static int begins_run(const rlvc_samples *samples, uint32_t i) {
+    return i == 0 || samples->sample[i].key != samples->sample[i - 1u].key;
+}
+
+static uint32_t count_runs(const rlvc_samples *samples) {
+    uint32_t runs = 0;
+    for (uint32_t i = 0; i < samples->count; i++)
+        runs += (uint32_t)begins_run(samples, i);
+    return runs;
+}
+
+/* Where run number `run` of samples with equal targets begins and ends. */
+static void find_run(const rlvc_samples *samples, uint32_t run, uint32_t *begin, uint32_t *end) {
+    uint32_t at = 0;
+    for (uint32_t left = run + 1u; left > 0; at++)
+        left -= (uint32_t)begins_run(samples, at);
+    *begin = at - 1u;
+    while (at < samples->count && !begins_run(samples, at))
+        at++;
+    *end = at;
+}
+
+static int is_among(const unsigned char *features, uint32_t count, uint32_t bytes,
+                    const unsigned char *feature) {
+    for (uint32_t j = 0; j < count; j++)
+        if (memcmp(features + (size_t)j * bytes + 4u, feature + 4u, bytes - 4u) == 0)
+            return 1;
+    return 0;
+}
+
+/* Puts vector `pick` of a percept, counted round, into the record behind the block's `written` features.
+ * 0: it was not to be had, or is among them. */
+static int put(const rlvc_descriptors *d, const void *percept, uint32_t pick,
+               unsigned char *features, uint32_t written, unsigned char *record) {
+    const uint32_t count = count_of(percept);
+    if (count == 0)
+        return 0;
+    memcpy(record + 4u, vector_at(d, percept, pick % count), vector_bytes(d));
+    return !is_among(features, written, feature_bytes(d), record);
+}
+
+/* Draws the vectors of candidate number `number` from samples [begin, end), and keeps the best. */
+static int draw(const rlvc_descriptors *d, const rlvc_samples *samples, uint32_t number,
+                const uint32_t run[2], unsigned char *features, uint32_t written) {
+    float aligned[1u + RLVC_DESCRIPTORS_DIMENSIONS_MAX] = {0.0f};
+    unsigned char *record = (unsigned char *)aligned;
+    unsigned char *out = features + (size_t)written * feature_bytes(d);
+    const uint32_t draws = d->margin > 1.0f ? d->draws : 1u;
+    gap best = {GAP_MIN - 1u, REFUSED};
+    memset(out, 0, feature_bytes(d));
+    memcpy(out, &best.radius, sizeof best.radius);
+    for (uint32_t t = 0; t < draws; t++) {
+        const uint32_t chance = scatter(number * RLVC_DESCRIPTORS_DRAWS_MAX + t + 1u);
+        const void *percept = rlvc_samples_percept(samples, run[0] + chance % (run[1] - run[0]));
+        gap found = {BINS, d->radius};
+        if (count_of(percept) > d->points)
+            return -1;
+        if (!put(d, percept, scatter(chance), features, written, record))
+            continue;
+        if (d->margin > 1.0f && measure(d, samples, record, &found) != 0)
+            return -1;
+        if (found.width > best.width) {
+            best = found;
+            memcpy(out, record, feature_bytes(d));
+            memcpy(out, &best.radius, sizeof best.radius);
+        }
+    }
+    return 0;
+}
+
+/* Candidate i comes from the samples of one target: of the i-th of them round and round, or of every so
+ * manieth if there are more targets than candidates. */
+static int candidates(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t room,
+                      void *features, uint32_t *written) {
+    const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;
+    const uint32_t runs = count_runs(samples);
+    uint32_t n = 0;
+    for (; n < room && first + n < d->candidates; n++) {
+        const uint32_t i = first + n;
+        uint32_t run[2];
+        find_run(samples,
+                 runs < d->candidates ? i % runs : (uint32_t)((uint64_t)i * runs / d->candidates),
+                 &run[0], &run[1]);
+        if (draw(d, samples, i, run, (unsigned char *)features, n) != 0)
+            return -1;
+    }
+    *written = n;
+    return 0;
+}
+
+/* "vector " and eight hexadecimal digits, a hash (FNV-1a) of the record. */
+static int name(void *ctx, const void *feature, char *text, uint32_t room) {
+    const unsigned char *byte = (const unsigned char *)feature;
+    const char *word = "vector ";
+    uint32_t sum = 2166136261u, n = 0;
+    for (uint32_t i = 0; i < feature_bytes((const rlvc_descriptors *)ctx); i++)
+        sum = (sum ^ byte[i]) * 16777619u;
+    for (; *word != '\0' && n + 1u < room; n++)
+        text[n] = *word++;
+    for (uint32_t digit = 0; digit < 8u && n + 1u < room; digit++, n++)
+        text[n] = "0123456789abcdef"[sum >> (28u - 4u * digit) & 15u];
+    text[n] = '\0';
+    return 0;
+}
+
+/* ------------------------------------------------------------------ the interface */
+
+rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uint32_t points,
+                                     uint32_t dimensions, uint32_t form, float radius) {
+    if (descriptors == NULL)
+        return RLVC_E_NULL;
+    const rlvc_descriptors made = {
+        .points = points,
+        .dimensions = dimensions,
+        .candidates = 64u,
+        .draws = 4u,
+        .radius = radius,
+        .margin = 1.8f,
+        .form = (uint8_t)form,
+    };
+    *descriptors = made;
+    return RLVC_OK;
+}
+
+static int in(uint32_t value, uint32_t low, uint32_t high) {
+    return value >= low && value <= high;
+}
+
+static int is_valid(const rlvc_descriptors *d) {
+    return in(d->points, 1, RLVC_DESCRIPTORS_POINTS_MAX) &&
+           in(d->dimensions, 1, RLVC_DESCRIPTORS_DIMENSIONS_MAX) &&
+           in(d->candidates, 1, RLVC_DESCRIPTORS_CANDIDATES_MAX) &&
+           in(d->draws, 1, RLVC_DESCRIPTORS_DRAWS_MAX) && d->form <= RLVC_DESCRIPTORS_INT8 &&
+           d->radius > 0.0f && d->radius <= NUMBER_MAX && d->margin >= 1.0f && d->margin <= 16.0f &&
+           RLVC_DESCRIPTORS_PERCEPT_BYTES(d->points, d->dimensions, d->form) <= PERCEPT_BYTES_MAX;
+}
+
+rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain) {
+    if (descriptors == NULL || domain == NULL)
+        return RLVC_E_NULL;
+    if (!is_valid(descriptors))
+        return RLVC_E_RANGE;
+    const rlvc_domain made = {
+        .ctx = descriptors,
+        .percept_bytes = RLVC_DESCRIPTORS_PERCEPT_BYTES(descriptors->points,
+                                                        descriptors->dimensions, descriptors->form),
+        .feature_bytes = feature_bytes(descriptors),
+        .features_max = descriptors->candidates,
+        .exhibits = exhibits,
+        .candidates = candidates,
+        .detect = detect,
+        .name = name,
+    };
+    *domain = made;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_descriptors_nearest(const rlvc_descriptors *descriptors, const void *percept,
+                                     const void *feature, uint32_t *point, float *squared) {
+    const float unlimited = 3e38f;
+    if (descriptors == NULL || percept == NULL || feature == NULL)
+        return RLVC_E_NULL;
+    const uint32_t count = count_of(percept);
+    if (count == 0 || count > descriptors->points)
+        return RLVC_E_RANGE;
+    uint32_t at = 0;
+    const float least = nearest(descriptors, percept, count, feature, unlimited, &at);
+    if (point != NULL)
+        *point = at;
+    if (squared != NULL)
+        *squared = least;
+    return RLVC_OK;
+}
