@@ -245,6 +245,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_split_at": (c.c_int, [_P, _U32, _P, _P]),
     "rlvc_print": (c.c_int, [_P, _U32, WRITE, _P]),
     "rlvc_agent_check": (c.c_int, [_P]),
+    # export.h
+    "rlvc_export_c": (c.c_int, [_P, _P, WRITE, _P, _P]),
     # native/shim.h
     "rlvc_shim_layout": (c.POINTER(_Entry), []),
     "rlvc_shim_predict": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P, _P]),

@@ -52,6 +52,7 @@ _observe = _lib.call.rlvc_observe
 _predict = _lib.call.rlvc_predict
 _byref = ctypes.byref
 _new = tuple.__new__
+_NOTHING = object()
 
 _DTYPES = {name: np.dtype(name) for name in ("float32", "uint8", "uint32", "bool")}
 
@@ -261,7 +262,7 @@ class Agent:
         self._memory_bytes = size.value
         self._choice = _lib.Choice()
         self._choice_reference = _byref(self._choice)
-        self._chosen: Choice | None = None  # what self._choice says
+        self._chosen: object = _NOTHING  # the Choice that self._choice says
         self._class = ctypes.c_uint32()
         self._action = ctypes.c_uint32()
         self._answers = (_byref(self._class), _byref(self._action))
@@ -452,7 +453,7 @@ class Agent:
             ) from None
         if not 0 <= number < self._config.actions:
             raise RangeError(f"action {number} is not in [0, {self._config.actions})")
-        self._chosen = None
+        self._chosen = _NOTHING
         self._choice.action = number
         self._choice.exploited = bool(exploited)
 
@@ -483,7 +484,7 @@ class Agent:
         count = len(packed)
         choices = np.empty(count, CHOICE)
         done = ctypes.c_size_t()
-        self._chosen = None
+        self._chosen = _NOTHING
         status = self._long(
             "rlvc_shim_act",
             packed.ctypes.data,
@@ -758,6 +759,11 @@ class Agent:
         if form not in forms:
             raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
         parts: list[bytes] = []
+        self._check(self._long("rlvc_print", forms[form], self._writer(parts), None))
+        return b"".join(parts).decode()
+
+    def _writer(self, parts: list[bytes]) -> Any:
+        """Make a callback that appends what the library writes."""
         guard = self._guard
 
         def write(_ctx: int | None, text: int, size: int) -> int:
@@ -768,7 +774,35 @@ class Agent:
                 return 1
             return 0
 
-        self._check(self._long("rlvc_print", forms[form], _lib.WRITE(write), None))
+        return _lib.WRITE(write)
+
+    def export_c(self, name: str = "policy") -> str:
+        """Give the learnt policy as a C99 header for a controller that only acts.
+
+        Parameters
+        ----------
+        name : str
+            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            ``name`` is no such identifier.
+        ConfigError
+            The domain is not :class:`Bits`.
+
+        Notes
+        -----
+        Source: ``core/include/rlvc/export.h``.
+        """
+        encoded = name.encode()
+        parts: list[bytes] = []
+        write = self._writer(parts)
+        self._check(self._long("rlvc_export_c", encoded, write, None, None))
         return b"".join(parts).decode()
 
     def check(self) -> None:

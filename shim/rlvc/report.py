@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""A run as JSON: what ``rlvc.plot`` draws, and what ``run_gridworld --json`` writes.
+
+``tools/run_gridworld/REPORT.md`` explains the members. A report that :func:`make` made has the kind
+``"rlvc learn"`` and those members that make sense: ``seed``, ``interactions``, ``classes``, ``depth``,
+``last_split_step``, ``memory_bytes``, ``history``, ``tree``, and for the Binary Gridworld ``maze``,
+``cells``, ``cell_classes`` and ``cell_actions``. Its ``history`` has ``mean_return`` in place of
+``optimal_cells``, and ``names`` says what each bit says.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .errors import RunError
+
+if TYPE_CHECKING:
+    from .learning import Run
+
+VERSION = 1
+_DRAWS = 8  # of a cell's distractors, which must all agree
+
+
+def _cells(run: Run, env: Any) -> dict[str, Any]:
+    from .envs import ACTIONS, BinaryGridworld
+
+    world = getattr(env, "unwrapped", env)
+    if not isinstance(world, BinaryGridworld):
+        return {}
+    maze = world.maze
+    draws = [
+        run.agent.predict(maze.percepts(world.distractors, seed=seed)) for seed in range(_DRAWS)
+    ]
+    free = np.array([list(row) for row in maze.rows]).ravel() == "."
+
+    def agreed(answers: Any, names: Any) -> list[list[Any]]:
+        table = np.stack(answers)
+        same = (table == table[0]).all(axis=0) & free
+        flat = [names(int(v)) if ok else None for v, ok in zip(table[0], same, strict=True)]
+        return [flat[y * maze.width : (y + 1) * maze.width] for y in range(maze.height)]
+
+    return {
+        "maze": maze.rows,
+        "cells": int(free.sum()),
+        "cell_classes": agreed([draw.class_id for draw in draws], int),
+        "cell_actions": agreed([draw.action for draw in draws], ACTIONS.__getitem__),
+    }
+
+
+def make(run: Run, env: Any = None) -> dict[str, Any]:
+    """Make the report of a run.
+
+    Parameters
+    ----------
+    run : Run
+    env : gymnasium.Env or None
+        What was learnt; a Binary Gridworld is drawn with its classes and policy.
+
+    Returns
+    -------
+    dict
+        Fit for JSON.
+    """
+    statistics = run.agent.statistics
+    history = [
+        {
+            "step": record.step,
+            "interactions": record.interactions,
+            "splits": record.splits,
+            "classes": record.classes,
+            "mean_return": None if math.isnan(record.mean_return) else record.mean_return,
+        }
+        for record in run.history
+    ]
+    return {
+        "version": VERSION,
+        "kind": "rlvc learn",
+        "seed": run.seed,
+        "interactions": statistics.interactions,
+        "classes": statistics.classes,
+        "depth": statistics.depth,
+        "last_split_step": statistics.last_split,
+        "memory_bytes": run.agent.memory_bytes,
+        **_cells(run, env),
+        "names": run.encoder.names if run.encoder else [],
+        "history": history,
+        "tree": run.agent.tree,
+    }
+
+
+def read(path: str | Path) -> dict[str, Any]:
+    """Read a report from a file.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    RunError
+        It cannot be read, is no report, or is of another version.
+    """
+    try:
+        report = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise RunError(f"{path}: cannot be read: {error}") from error
+    except json.JSONDecodeError as error:
+        raise RunError(f"{path}: line {error.lineno}: is no JSON: {error.msg}") from error
+    if not isinstance(report, dict) or "version" not in report:
+        raise RunError(f"{path}: is no report of a run")
+    if report["version"] != VERSION:
+        raise RunError(f"{path}: is of version {report['version']}, and this reads {VERSION}")
+    return report

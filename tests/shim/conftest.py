@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the Python package share."""
+
+import pathlib
+import subprocess
+
+import hypothesis
+import numpy as np
+import pytest
+
+import rlvc
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, database=None)
+hypothesis.settings.load_profile("fixed")
+
+
+@pytest.fixture(scope="session")
+def caller(tmp_path_factory):
+    """The C program that makes the calls it reads, linked with a core of its own."""
+    program = tmp_path_factory.mktemp("caller") / "caller"
+    sources = sorted([*(ROOT / "core/src").glob("*.c"), *(ROOT / "core/domains").glob("*.c")])
+    subprocess.run(
+        ["gcc", "-std=c99", "-O1", "-ffp-contract=off", f"-I{ROOT / 'core/include'}", "-o", program,
+         pathlib.Path(__file__).with_name("caller.c"), *sources],
+        check=True,
+    )  # fmt: skip
+    return program
+
+
+@pytest.fixture
+def walk():
+    """Makes an agent that walked along cells 0 to 7, of which 5 pays 1."""
+
+    def make(domain=3, **config):
+        agent = rlvc.Agent(domain, 2, epsilon=1.0, **config)
+        cell = 7
+        agent.begin(np.array([cell], np.uint8))
+        for _ in range(400):
+            choice = agent.act()
+            cell = min(cell + 1, 7) if choice.action else max(cell - 1, 0)
+            percept = np.array([cell], np.uint8)
+            agent.observe(choice, float(cell == 5), percept, terminated=cell == 5)
+            if cell == 5:
+                cell = 7 if agent.statistics.interactions % 2 else 0
+                agent.begin(np.array([cell], np.uint8))
+        return agent
+
+    return make

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""The declarations are those of the headers, and a library that is another one is refused."""
+
+import ctypes
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+from rlvc import _lib, config, errors
+
+HEADERS = [*(ROOT / "core/include/rlvc").glob("*.h"), ROOT / "shim/native/shim.h"]
+COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+FUNCTION = re.compile(r"^RLVC_API\s+([\w\s*]+?[\s*])(rlvc_\w+)\(([^;]*?)\);", re.MULTILINE)
+SCALARS = {
+    "uint8_t": ctypes.c_uint8, "uint32_t": ctypes.c_uint32, "size_t": ctypes.c_size_t,
+    "float": ctypes.c_float, "int": ctypes.c_int, "rlvc_status": ctypes.c_int,
+    "rlvc_choice": _lib.Choice, "rlvc_write": _lib.WRITE, "void": None,
+}  # fmt: skip
+
+
+def declared():
+    for header in HEADERS:
+        text = COMMENT.sub("", header.read_text(encoding="utf-8"))
+        for result, name, arguments in FUNCTION.findall(text):
+            taken = [] if arguments == "void" else [a.strip() for a in arguments.split(",")]
+            yield name, result.strip(), taken
+
+
+def kind(text):
+    """The ctypes of a parameter, without its name; None for a pointer."""
+    if "*" in text:
+        return None
+    words = [word for word in text.split() if word != "const"]
+    return SCALARS[words[0]]
+
+
+def test_every_function_is_declared_as_in_its_header():
+    functions = {name: (result, taken) for name, result, taken in declared()}
+    assert set(functions) == set(_lib.FUNCTIONS)
+    for name, (result, taken) in functions.items():
+        found_result, found = _lib.FUNCTIONS[name]
+        assert len(found) == len(taken), name
+        if "*" not in result:
+            assert found_result is SCALARS[result], name
+        for text, argument in zip(taken, found, strict=True):
+            wanted = kind(text)
+            assert argument is (ctypes.c_void_p if wanted is None else wanted), f"{name}: {text}"
+
+
+def test_every_function_has_its_types_set():
+    for library in (_lib.call, _lib.long_call):
+        for name, (_, arguments) in _lib.FUNCTIONS.items():
+            assert getattr(library, name).argtypes == arguments
+
+
+def test_constants():
+    text = "".join(header.read_text(encoding="utf-8") for header in HEADERS)
+    for name in ("OK", "E_NULL", "E_CONFIG", "E_MEMORY", "E_ORDER", "E_RANGE", "E_REWARD", "E_BUSY",
+                 "E_CALLBACK", "E_REENTERED", "GOES_ON", "TERMINATED", "TRUNCATED", "PRINT_TEXT",
+                 "PRINT_DOT", "PRINT_JSON", "BUDGET_MIN", "DETECT_SAMPLES", "DETECT_FEATURES",
+                 "NAME_BYTES", "BITS_MAX", "ALIGNMENT"):  # fmt: skip
+        match = re.search(rf"\bRLVC_{name} (?:= )?(-?\d+)", text)
+        assert match, name
+        assert int(match[1]) == getattr(_lib, name), name
+    for field, names in config.CHOICES.items():
+        for value, name in enumerate(names):
+            assert re.search(rf"#define RLVC_{field}_{name} {value}u".upper().replace("DEFINE", "define")
+                             .replace(f"{value}U", f"{value}u"), text), name  # fmt: skip
+
+
+def test_defaults_of_the_config_are_the_librarys():
+    domain, native = _lib.Domain(), _lib.Config()
+    _lib.call.rlvc_bits_domain(100, ctypes.byref(domain))
+    _lib.call.rlvc_config_default(ctypes.byref(native), ctypes.byref(domain), 3)
+    assert bytes(config.to_native(config.Config(3), domain)) == bytes(native)
+
+
+def test_statuses_have_exceptions():
+    text = (ROOT / "core/include/rlvc/status.h").read_text(encoding="utf-8")
+    for name, value in re.findall(r"RLVC_(E_\w+) = (-\d+)", text):
+        assert getattr(_lib, name, None) == int(value), name
+
+
+@pytest.mark.parametrize("version", ["0.0.9", "9.9.9", ""])
+def test_another_version_is_refused(version):
+    with pytest.raises(errors.LibraryError, match="version"):
+        _lib.check_version(version, _lib.PATH)
+
+
+def test_another_layout_is_refused():
+    entries = _lib._entries(_lib.call)
+    _lib.check_layout(entries, _lib.PATH)
+    for key in entries:
+        with pytest.raises(errors.LibraryError, match=re.escape(key)):
+            _lib.check_layout({**entries, key: entries[key] + 1}, _lib.PATH)
+        with pytest.raises(errors.LibraryError, match=re.escape(key)):
+            _lib.check_layout({k: v for k, v in entries.items() if k != key}, _lib.PATH)
+    with pytest.raises(errors.LibraryError, match=r"rlvc_config\.more"):
+        _lib.check_layout({**entries, "rlvc_config.more": 1}, _lib.PATH)
+
+
+@pytest.mark.parametrize("content", [None, b"no library"])
+def test_a_missing_or_foreign_library_is_said_to_be_so(tmp_path, content):
+    path = tmp_path / "librlvc-python.so"
+    if content is not None:
+        path.write_bytes(content)
+    done = subprocess.run(
+        [sys.executable, "-c", "import rlvc"], capture_output=True, text=True,
+        env={"RLVC_PYTHON_LIBRARY": str(path), "PYTHONPATH": ":".join(sys.path)},
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "LibraryError" in done.stderr
+    assert str(path) in done.stderr
+
+
+def test_vision_says_what_to_install():
+    with pytest.raises(ImportError, match="libopencv-dev"):
+        import rlvc.vision  # noqa: F401
