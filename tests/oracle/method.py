@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: MIT
+"""Reinforcement learning of classes, plainly: a second implementation of the method in numpy.
+
+It follows the paper (sections cited) and the rules that the core's headers state; it is written to be
+read, in double precision and without a thought for memory or time. Percepts are vectors of bits, features
+are the numbers of bits.
+"""
+from dataclasses import dataclass
+
+import numpy
+import scipy.stats
+
+RETURNS, RESIDUAL = 0, 1
+GAIN, GINI, CHI2 = 0, 1, 2
+
+
+@dataclass
+class Interaction:
+    """<s, a, r, s', e> of section 4.2.1."""
+
+    percept: numpy.ndarray
+    action: int
+    reward: float
+    next: numpy.ndarray | None  # None: the episode terminated
+    exploited: bool
+    linked: bool  # the next interaction of the database goes on from s'
+
+
+# ------------------------------------------------------------------ targets (section 4.2.2)
+
+
+def truncated_returns(database, horizon, discount, continuing, number=float):
+    """Definition 1: sum of discount^i r_{t+i+1}, i = 0..horizon, for each t; NaN where undefined. From the
+    last reward back, in numbers of the type `number`: definition 2 asks whether two of them are equal."""
+    discount = number(discount)
+    result = numpy.full(len(database), numpy.nan)
+    for t in range(len(database) - horizon):
+        window = database[t : t + horizon + 1]
+        whole = all(x.linked or (continuing and x.next is None) for x in window[:-1])
+        if whole and all(x.exploited for x in window):
+            total = number(0)
+            for x in reversed(window):
+                total = number(x.reward) + discount * total
+            result[t] = total
+    return result
+
+
+def bellman_targets(database, next_classes, values, discount):
+    """r + discount V(class of s'), and r alone after a terminated interaction."""
+    rewards = numpy.array([x.reward for x in database])
+    return rewards + discount * numpy.where(next_classes < 0, 0.0, values[next_classes])
+
+
+# ------------------------------------------------------------------ values (section 2.3)
+
+
+@dataclass
+class Tables:
+    """What is known of each class and action. Q is NaN and `tried` 0 where nothing is."""
+
+    q: numpy.ndarray
+    tried: numpy.ndarray
+    values: numpy.ndarray
+
+    def split(self, class_id):
+        """A class becomes two, of which each is worth what it was until the next solution."""
+        actions = self.q.shape[1]
+        self.q = numpy.vstack([self.q, numpy.full(actions, numpy.nan)])
+        self.tried = numpy.vstack([self.tried, numpy.zeros(actions, int)])
+        self.q[class_id], self.tried[class_id] = numpy.nan, 0
+        self.values = numpy.append(self.values, self.values[class_id])
+
+
+def solve(database, classes, next_classes, before, discount, optimistic=None):
+    """Value iteration, to convergence, over the class-level process that the database shows. What it does
+    not show stays as it was before: Q of a pair, V of a class without any."""
+    shape = before.q.shape
+    tried, reward = numpy.zeros(shape, int), numpy.zeros(shape)
+    transitions = numpy.zeros(shape + shape[:1])
+    for x, c, after in zip(database, classes, next_classes):
+        tried[c, x.action] += 1
+        reward[c, x.action] += x.reward
+        if after >= 0:
+            transitions[c, x.action, after] += 1
+    times = numpy.maximum(tried, 1)
+    values, change = before.values, numpy.inf
+    while change > 1e-13 * (1 + numpy.abs(values).max()):
+        q = numpy.where(tried > 0, (reward + discount * transitions @ values) / times, before.q)
+        counts = numpy.where(numpy.isnan(q), -numpy.inf if optimistic is None else optimistic, q)
+        best = counts.max(axis=1)
+        after = numpy.where(numpy.isfinite(best), best, values)
+        change = numpy.abs(after - values).max()
+        values = after
+    return Tables(q, numpy.where(tried > 0, tried, before.tried), values)
+
+
+# ------------------------------------------------------------------ splits (sections 4.2.3, 4.2.4)
+
+
+def scores(kind, a, b, c, d):
+    """How much better one knows the side of the cutpoint once the presence of the feature is known, from
+    2 x 2 tables: with and without it below (a, b) and above (c, d)."""
+    if kind == CHI2:
+        return pearson(a, b, c, d)
+    measure = entropy if kind == GAIN else impurity
+    present, absent = numpy.array([a, c], float), numpy.array([b, d], float)
+    both = present + absent
+    return measure(both) - (share(present, both) * measure(present)
+                            + share(absent, both) * measure(absent))
+
+
+def share(part, whole):
+    return part.sum(axis=0) / whole.sum(axis=0)
+
+
+def proportions(counts):
+    return counts / numpy.maximum(counts.sum(axis=0), 1)
+
+
+def entropy(counts):
+    p = proportions(counts)
+    return -numpy.sum(p * numpy.log2(numpy.where(p > 0, p, 1)), axis=0)
+
+
+def impurity(counts):
+    return 1 - numpy.sum(proportions(counts) ** 2, axis=0)
+
+
+def pearson(a, b, c, d):
+    product = (a + b) * (c + d) * (a + c) * (b + d)
+    n = a + b + c + d
+    return numpy.where(product > 0, n * (a * d - b * c) ** 2 / numpy.maximum(product, 1.0), 0.0)
+
+
+def cutpoints(targets, gap):
+    """Of sorted targets: the places i, between i - 1 and i, where a new cluster begins; a cluster holds
+    what is within `gap` of its lowest."""
+    places, lowest = [], targets[0]
+    for i, target in enumerate(targets):
+        if target - lowest > gap:
+            places.append(i)
+            lowest = target
+    return numpy.array(places, int)
+
+
+@dataclass
+class Candidate:
+    """A feature and a cutpoint for the samples after one action."""
+
+    action: int
+    feature: int
+    evidence: float
+    score: float
+    statistic: float
+    table: tuple
+
+
+class Group:
+    """The samples of a class after one action."""
+
+    def __init__(self, action, percepts, targets, gap):
+        order = numpy.argsort(targets, kind="stable")
+        self.action, self.samples = action, len(targets)
+        self.cuts = cutpoints(targets[order], gap)
+        self.present = numpy.cumsum(percepts[order], axis=0).astype(float)
+
+    def divided_by(self, feature):
+        return 0 < self.present[-1, feature] < self.samples
+
+    def candidates(self, feature, kind):
+        """One for each cutpoint."""
+        a = self.present[self.cuts - 1, feature]
+        b = self.cuts - a
+        c = self.present[-1, feature] - a
+        d = self.samples - self.cuts - c
+        found, statistics = scores(kind, a, b, c, d), pearson(a, b, c, d)
+        evidence = found if kind == CHI2 else found * self.samples
+        return [Candidate(self.action, feature, *numbers)
+                for numbers in zip(evidence, found, statistics, zip(a, b, c, d))]
+
+
+@dataclass
+class Search:
+    """What there is to choose from in one class, and what each choice would be worth."""
+
+    alone: list  # of Candidate
+    together: dict  # feature: for each group that it divides, its Candidates
+    groups: list  # of those that take part
+    log_features: float
+
+    def __bool__(self):
+        return any(x.evidence > 1e-9 for x in self.alone)
+
+    def correction(self):
+        """Two winners are compared where there is more than one group."""
+        return numpy.log(2) if len(self.groups) > 1 else 0.0
+
+    def log_tests_alone(self, action):
+        cuts = next(len(g.cuts) for g in self.groups if g.action == action)
+        return self.log_features + numpy.log(cuts) + self.correction()
+
+    def log_tests_together(self, feature):
+        cuts = [len(g.cuts) for g in self.groups if g.divided_by(feature)]
+        return self.log_features + numpy.log(cuts).sum() + self.correction()
+
+    def log_p_alone(self, candidate):
+        log_p = scipy.stats.chi2.logsf(candidate.statistic, 1)
+        return min(0.0, log_p + self.log_tests_alone(candidate.action))
+
+    def log_p_together(self, feature, chosen):
+        """For one candidate of each group."""
+        log_p = scipy.stats.chi2.logsf(sum(x.statistic for x in chosen), len(chosen))
+        return min(0.0, log_p + self.log_tests_together(feature))
+
+
+def search(percepts, actions, targets, action_count, gap, kind, min_samples):
+    """Looks for the best split of a class; None if there is too little to tell apart."""
+    groups = []
+    for action in range(action_count):
+        mine = actions == action
+        if mine.any():
+            group = Group(action, percepts[mine], targets[mine], gap)
+            if len(group.cuts) > 0:
+                groups.append(group)
+    if not groups or sum(g.samples for g in groups) < min_samples:
+        return None
+    features = [f for f in range(percepts.shape[1]) if any(g.divided_by(f) for g in groups)]
+    together = {f: [g.candidates(f, kind) for g in groups if g.divided_by(f)] for f in features}
+    alone = [x for lists in together.values() for candidates in lists for x in candidates]
+    return Search(alone, together, groups, numpy.log(max(len(features), 1)))
+
+
+# ------------------------------------------------------------------ classes (section 4.3)
+
+
+class Tree:
+    """Split j of class c: percepts of c that show the feature go to the new class j + 1."""
+
+    def __init__(self):
+        self.splits = []
+
+    def classify(self, percepts):
+        classes = numpy.zeros(len(percepts), int)
+        for j, (class_id, feature) in enumerate(self.splits):
+            classes[(classes == class_id) & (percepts[:, feature] == 1)] = j + 1
+        return classes

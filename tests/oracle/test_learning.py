@@ -1,0 +1,361 @@
+# SPDX-License-Identifier: MIT
+"""Learning steps of the core against method.py: every split, its numbers, and the values.
+
+Where two candidates are as good to within the core's rounding, the core may take either, and method.py
+goes on with its choice; but of tables that are the same it must take the first.
+"""
+import numpy
+import pytest
+
+import binding
+import method
+from binding import GOES_ON, TERMINATED, TRUNCATED
+
+NEAR = 4e-6  # relative: a quarter of what score.h grants a score
+NUMBERS = 1e-5
+
+
+class Learner:
+    """An agent, and the database that it should have."""
+
+    def __init__(self, bits, actions, **fields):
+        self.agent = binding.Agent(bits, actions, **fields)
+        self.config = self.agent.config
+        self.tree, self.database, self.current = method.Tree(), [], None
+        self.optimistic = None
+        if self.config.untried == binding.OPTIMISTIC:
+            self.optimistic = self.config.optimistic_value
+        self.tables = method.Tables(numpy.full((1, actions), numpy.nan),
+                                    numpy.zeros((1, actions), int),
+                                    numpy.full(1, self.optimistic or 0.0))
+
+    def begin(self, percept):
+        if self.current is not None and self.database:
+            self.database[-1].linked = False
+        self.current = percept
+        self.agent.begin(percept)
+
+    def observe(self, action, exploited, reward, percept, end):
+        reward = float(numpy.float32(reward))
+        self.agent.observe(action, exploited, reward, percept, end)
+        self.database.append(method.Interaction(self.current, action, reward, percept,
+                                                bool(exploited), end == GOES_ON))
+        self.current = percept if end == GOES_ON else None
+
+    # -------------------------------------------------------------- one step, checked
+
+    def learn(self):
+        """Lets the agent learn, and goes after it. Returns how many splits it made."""
+        step, known = self.agent.stats().step, len(self.tree.splits)
+        self.agent.learn()
+        left = self.agent.splits()[known:]
+        while self.round(left, step):
+            pass
+        assert not left, "a split too many"
+        if self.config.criterion == method.RETURNS:
+            self.solve()
+        self.compare_values()
+        if self.config.criterion == method.RETURNS:
+            self.database = []  # the next step needs a fresh one
+        return len(self.tree.splits) - known
+
+    def classes(self):
+        """Of s and of s', -1 where the episode terminated."""
+        here = self.tree.classify(numpy.array([x.percept for x in self.database]))
+        after = self.tree.classify(numpy.array([x.percept if x.next is None else x.next
+                                                for x in self.database]))
+        return here, numpy.where([x.next is None for x in self.database], -1, after)
+
+    def solve(self):
+        self.tables = method.solve(self.database, *self.classes(), self.tables,
+                                   self.config.discount, self.optimistic)
+
+    def targets(self, step):
+        if self.config.criterion == method.RETURNS:
+            return method.truncated_returns(self.database, step, self.config.discount,
+                                            self.config.continuing, numpy.float32)
+        self.solve()
+        return method.bellman_targets(self.database, self.classes()[1], self.tables.values,
+                                      self.config.discount)
+
+    def round(self, left, step):
+        """Every class once; takes the splits that were made off `left`."""
+        targets, (here, _) = self.targets(step), self.classes()
+        percepts = numpy.array([x.percept for x in self.database])
+        actions = numpy.array([x.action for x in self.database])
+        residual = self.config.criterion == method.RESIDUAL
+        gap = 2.0 * self.config.tolerance if residual else 0.0
+        splits = []
+        for class_id in range(len(self.tree.splits) + 1):
+            mine = (here == class_id) & ~numpy.isnan(targets)
+            found = method.search(percepts[mine], actions[mine], targets[mine], self.config.actions,
+                                  gap, self.config.score, self.config.min_samples)
+            split = left[0] if left and left[0][0].class_id == class_id else None
+            if self.compare(found, split):
+                assert split[0].step == step
+                splits.append((class_id, left.pop(0)[1]))
+        for class_id, _ in splits:
+            self.tables.split(class_id)
+        self.tree.splits += splits
+        return len(splits) > 0
+
+    # -------------------------------------------------------------- one class
+
+    def compare(self, found, split):
+        """Whether the class is split; fails if the core's answer is not one that the method allows."""
+        allowed = self.allowed(found) if found else []
+        log_alpha = numpy.log(self.config.alpha)
+        margin = NUMBERS * (1 + abs(log_alpha))
+        if split is None:
+            certain = [x for x in allowed if x["log_p"] < log_alpha - margin]
+            assert not certain or len(certain) < len(allowed), f"no split, but {allowed}"
+        if split is None or not any(0.0 > x["log_p"] < log_alpha + margin for x in allowed):
+            return False  # a split that was made nonetheless is left over
+        about, bit = split
+        got = {name: getattr(about, name) for name in ("action", "samples", "log_tests", "score",
+                                                       "log_p")}
+        got["bit"] = bit
+        assert any(self.same(got, x) for x in allowed), f"{got} is none of {allowed}"
+        return True
+
+    @staticmethod
+    def same(got, wanted):
+        numbers = ("log_tests", "score", "log_p")
+        return (all(got[name] == wanted[name] for name in ("action", "samples", "bit"))
+                and all(abs(got[n] - wanted[n]) <= NUMBERS * (1 + abs(wanted[n])) for n in numbers))
+
+    def allowed(self, found):
+        """The splits that the method allows: one, but for what rounding cannot tell apart."""
+        alone = self.alone(found)
+        together = self.together(found) if len(found.groups) > 1 else []
+
+        def may_beat(one, others):
+            worst = max((x["log_p"] for x in others), default=0.0)
+            return one["log_p"] <= worst + NUMBERS * (1 + abs(worst))
+
+        return ([x for x in alone if may_beat(x, together)]
+                + [x for x in together if may_beat(x, alone)])
+
+    @staticmethod
+    def alone(found):
+        most = max(x.evidence for x in found.alone)
+        order = sorted((x for x in found.alone if x.evidence >= most * (1 - NEAR)),
+                       key=lambda x: (x.action, x.feature))
+        samples = {g.action: g.samples for g in found.groups}
+        options, seen = [], set()
+        for x in order:
+            table = sorted_table(x.table)
+            if table not in seen:
+                options.append({"bit": x.feature, "action": x.action, "score": x.score,
+                                "samples": samples[x.action], "log_p": found.log_p_alone(x),
+                                "log_tests": found.log_tests_alone(x.action)})
+            seen.add(table)
+        return options
+
+    def together(self, found):
+        sums = {feature: sum(max(x.evidence for x in group) for group in lists)
+                for feature, lists in found.together.items()}
+        most = max(sums.values())
+        samples = sum(g.samples for g in found.groups)
+        options, seen = [], set()
+        for feature, lists in sorted(found.together.items()):
+            if sums[feature] < most * (1 - NEAR):
+                continue
+            choices = [best_cutpoints(group) for group in lists]
+            tables = tuple(sorted_table(group[0].table) for group in choices)
+            if tables in seen and all(len(group) == 1 for group in choices):
+                continue
+            seen.add(tables)
+            for chosen in extremes(choices):
+                options.append({"bit": feature, "action": self.config.actions, "samples": samples,
+                                "score": sums[feature] / samples,
+                                "log_tests": found.log_tests_together(feature),
+                                "log_p": found.log_p_together(feature, chosen)})
+        return options
+
+    # -------------------------------------------------------------- values
+
+    def compare_values(self):
+        q, tried, values, policy = self.agent.tables()
+        wanted = self.tables
+        bound = self.config.tolerance + NUMBERS * (1 + numpy.abs(wanted.values).max())
+        assert (tried == wanted.tried).all()
+        assert numpy.abs(values - wanted.values).max() <= bound
+        known = wanted.tried > 0
+        assert numpy.abs(q - wanted.q)[known].max() <= bound
+        assert (q[~known] == numpy.float32(self.optimistic or 0.0)).all()
+        counts = numpy.where(known | (self.optimistic is not None), q, -numpy.inf)
+        some = numpy.isfinite(counts).any(axis=1)
+        assert (policy[some] == counts[some].argmax(axis=1)).all()
+
+
+def sorted_table(table):
+    """The same for tables that differ by exchanged rows or columns: their scores are the same bits."""
+    a, b, c, d = table
+    return min((a, b, c, d), (b, a, d, c), (c, d, a, b), (d, c, b, a))
+
+
+def best_cutpoints(candidates):
+    """Of one group: those that rounding cannot tell apart; of the same tables the first."""
+    most = max(x.evidence for x in candidates)
+    best = {}
+    for x in candidates:
+        if x.evidence >= most * (1 - NEAR):
+            best.setdefault(sorted_table(x.table), x)
+    return list(best.values())
+
+
+def extremes(choices):
+    """One choice a group, or two if in some group there are several: the least and the most."""
+    least = [min(group, key=lambda x: x.statistic) for group in choices]
+    most = [max(group, key=lambda x: x.statistic) for group in choices]
+    return [least] if least == most else [least, most]
+
+
+# ------------------------------------------------------------------ random databases
+
+
+def fill(learner, rng, interactions, levels, exploited=0.5):
+    """Random percepts; rewards are sums of a few bits, and noise that differs a little by action."""
+    bits = learner.agent.bits
+    weights = rng.integers(-2, 3, (learner.config.actions, bits)) * (rng.random(bits) < 0.4)
+    for _ in range(interactions):
+        percept = rng.integers(0, 2, bits) if learner.current is None else learner.current
+        if learner.current is None or rng.random() < 0.05:
+            learner.begin(percept)
+        percept = learner.current
+        action = int(rng.integers(learner.config.actions))
+        reward = weights[action] @ percept + rng.integers(0, levels) / 4
+        end = rng.choice([GOES_ON, TERMINATED, TRUNCATED], p=[0.8, 0.15, 0.05])
+        after = None if end == TERMINATED else rng.integers(0, 2, bits)
+        learner.observe(action, int(rng.random() < exploited), reward, after, int(end))
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_residual(seed):
+    rng = numpy.random.default_rng(seed)
+    learner = Learner(
+        int(rng.integers(2, 12)), int(rng.integers(1, 5)), classes=200, capacity=1000,
+        criterion=method.RESIDUAL, score=seed % 3, alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
+        tolerance=1e-4, discount=float(rng.choice([0.0, 0.5, 0.9])), solver=seed % 2,
+        min_samples=int(rng.integers(2, 20)), untried=seed // 3 % 2, optimistic_value=3.0,
+        features_at_once=1 + seed % 7)
+    for _ in range(2):
+        fill(learner, rng, int(rng.integers(5, 250)), levels=int(rng.choice([1, 3, 30])))
+        learner.learn()
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_returns(seed):
+    rng = numpy.random.default_rng(1000 + seed)
+    learner = Learner(
+        int(rng.integers(2, 12)), int(rng.integers(1, 4)), classes=200, capacity=1000,
+        criterion=method.RETURNS, score=seed % 3, alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
+        discount=float(rng.choice([0.0, 0.5, 0.9, 0.99])), continuing=seed % 2, tolerance=1e-4,
+        min_samples=int(rng.integers(2, 20)))
+    for _ in range(3):
+        fill(learner, rng, int(rng.integers(20, 300)), levels=int(rng.choice([1, 3, 30])),
+             exploited=0.9)
+        learner.learn()
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_same_columns(seed):
+    """Bits that are copies of others: the first must win."""
+    rng = numpy.random.default_rng(2000 + seed)
+    learner = Learner(9, 2, classes=100, capacity=1000, criterion=seed % 2, score=seed % 3,
+                      alpha=0.5, discount=0.5, features_at_once=1 + seed % 4)
+    for _ in range(300):
+        base = rng.integers(0, 2, 3)
+        learner.begin(numpy.concatenate([base, base, 1 - base]))
+        learner.observe(int(rng.integers(2)), 1, float(base[0] + 2 * base[1] * base[2]), None,
+                        TERMINATED)
+    assert learner.learn() >= 3
+    assert all(bit < 3 for _, bit in learner.agent.splits())
+
+
+# ------------------------------------------------------------------ a maze
+
+
+MAZE = ["...#*",
+        ".#...",
+        "....."]
+MOVES = [(0, -1), (1, 0), (0, 1), (-1, 0)]
+CELLS = [(x, y) for y, row in enumerate(MAZE) for x, sign in enumerate(row) if sign == "."]
+
+
+class Walk:
+    """Through the maze; percepts are 3 bits of x, 4 at random, 2 of y."""
+
+    def __init__(self, seed):
+        self.rng = numpy.random.default_rng(seed)
+        self.reset()
+
+    def reset(self):
+        self.place = CELLS[self.rng.integers(len(CELLS))]
+
+    def percept(self):
+        x, y = self.place
+        return numpy.array([x & 1, x >> 1 & 1, x >> 2, *self.rng.integers(0, 2, 4), y & 1, y >> 1])
+
+    def move(self, action):
+        """The reward, and whether the exit is reached."""
+        x, y = (a + b for a, b in zip(self.place, MOVES[action]))
+        if 0 <= y < len(MAZE) and 0 <= x < len(MAZE[0]) and MAZE[y][x] != "#":
+            self.place = (x, y)
+        out = MAZE[self.place[1]][self.place[0]] == "*"
+        return (100.0 if out else -1.0), out
+
+
+def walk(learner, world, interactions):
+    for _ in range(interactions):
+        if learner.current is None:
+            learner.begin(world.percept())
+        action, exploited = learner.agent.act()
+        reward, out = world.move(action)
+        learner.observe(action, exploited, reward, None if out else world.percept(),
+                        TERMINATED if out else GOES_ON)
+        if out:
+            world.reset()
+
+
+def steps_to_exit(learner, world, place):
+    world.place, steps, out = place, 0, False
+    while not out and steps < 50:
+        _, out = world.move(learner.agent.predict(world.percept())[1])
+        steps += 1
+    return steps
+
+
+def distances():
+    """The length of the shortest way from each cell."""
+    exits = [(x, y) for y, row in enumerate(MAZE) for x, sign in enumerate(row) if sign == "*"]
+    far, edge = {place: 0 for place in exits}, list(exits)
+    for place in edge:
+        for dx, dy in MOVES:
+            other = place[0] + dx, place[1] + dy
+            if other in CELLS and other not in far:
+                far[other] = far[place] + 1
+                edge.append(other)
+    return far
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_maze_residual(seed):
+    learner, world = Learner(9, 4, capacity=4000, seed=seed, criterion=method.RESIDUAL), Walk(seed)
+    for _ in range(6):
+        walk(learner, world, 400)
+        learner.learn()
+    assert {bit for _, bit in learner.agent.splits()} <= {0, 1, 2, 7, 8}
+    assert all(steps_to_exit(learner, world, place) == distances()[place] for place in CELLS)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_maze_returns(seed):
+    learner, world = Learner(9, 4, capacity=2500, seed=seed, criterion=method.RETURNS, continuing=1,
+                             epsilon=0.8), Walk(seed)
+    for _ in range(10):
+        walk(learner, world, 2000)
+        learner.learn()
+    assert len(learner.tree.splits) > 5
+    assert {bit for _, bit in learner.agent.splits()} <= {0, 1, 2, 7, 8}
