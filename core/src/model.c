@@ -61,11 +61,17 @@ static void count_sample(rlvc_model *model, const rlvc_values *values, rlvc_samp
     sample[model->packed++].slot = 1;
 }
 
+#define REWARD_UNITS 2u /* adding is arithmetic, where other units but look */
+
+/* The units that the phase needs to get on; a step of the sort is not divided further. */
+static uint32_t needed(const rlvc_model *model) {
+    return model->phase == SORT ? RLVC_BUDGET_MIN : model->phase == REWARD ? REWARD_UNITS : 1u;
+}
+
 uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
                          rlvc_sample *sample, void *scratch, uint32_t budget) {
     uint32_t used = 0;
-    /* A step of the sort is not divided further. */
-    while (!model->done && budget - used >= (model->phase == SORT ? RLVC_BUDGET_MIN : 1u)) {
+    while (!model->done && budget - used >= needed(model)) {
         switch (model->phase) {
         case GROUP:
             used += rlvc_grouping_step(&model->grouping, aliasing, sample, values->first,
@@ -78,7 +84,7 @@ uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_
             break;
         case REWARD:
             add_reward(model, aliasing->returns.replay, values, sample, scratch);
-            used++;
+            used += REWARD_UNITS;
             break;
         case SORT:
             used += rlvc_sort_step(&model->sort, budget - used);
@@ -103,7 +109,7 @@ void rlvc_model_single(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_va
             rlvc_sort_single(&model->sort);
         model->phase = model->sort.done ? COUNT : SORT;
     } else {
-        (void)rlvc_model_step(model, aliasing, values, sample, scratch, 1);
+        (void)rlvc_model_step(model, aliasing, values, sample, scratch, needed(model));
     }
 }
 

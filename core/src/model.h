@@ -33,7 +33,7 @@ void rlvc_model_begin(rlvc_model *model, uint32_t pairs);
 /* Works on the model for one budget. aliasing->kind is RLVC_KEY_SUCCESSOR.
  * @param scratch RLVC_SORT_SCRATCH_BYTES, aligned to 8, the model's until it is done
  * @return the work, at most budget (>= RLVC_BUDGET_MIN): that of the grouping and of sorting each pair,
- *         and two units for each interaction. */
+ *         and three units for each interaction. */
 uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
                          rlvc_sample *sample, void *scratch, uint32_t budget);
 
