@@ -10,10 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__
+from .agent import Agent
 from .config import CHOICES
+from .encode import explain
 from .errors import Error
 from .learning import Run, learn
 from .logs import learn_from
+from .snapshot import read_file
 
 _CURVES = ("discount", "epsilon", "alpha", "tolerance")
 
@@ -67,6 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     one.add_argument("--json", metavar="FILE", help="write a report, which 'plot' draws")
     one.add_argument("--c", metavar="FILE", help="write the policy as a C header")
+    one.add_argument("--save", metavar="FILE", help="write the agent, which 'show' reads")
     one.add_argument("--quiet", action="store_true", help="no progress bar")
 
     two = commands.add_parser(
@@ -77,6 +81,19 @@ def _parser() -> argparse.ArgumentParser:
     two.add_argument("run", metavar="RUN.json")
     two.add_argument("kind", choices=("maze", "values", "curve", "splits", "tree"))
     two.add_argument("file", metavar="FILE", help="a .png or a .svg")
+
+    three = commands.add_parser(
+        "show", help="print an agent", description="Prints the tree of an agent that was saved."
+    )
+    three.add_argument("agent", metavar="AGENT")
+
+    four = commands.add_parser(
+        "export",
+        help="write an agent's policy as C",
+        description="Writes the policy of an agent that was saved as a C header.",
+    )
+    four.add_argument("agent", metavar="AGENT")
+    four.add_argument("--c", metavar="FILE", required=True)
 
     commands.add_parser(
         "bench", help="time the package's calls", description="Times the package's calls."
@@ -138,6 +155,8 @@ def _show(run: Run, env: Any, arguments: argparse.Namespace) -> None:
         from . import report
 
         _write(arguments.json, json.dumps(report.make(run, env), indent=1) + "\n")
+    if arguments.save:
+        run.agent.save(arguments.save, run.encoder.names if run.encoder else ())
     if arguments.c:
         _write(arguments.c, run.agent.export_c())
     if run.interrupted:
@@ -145,6 +164,15 @@ def _show(run: Run, env: Any, arguments: argparse.Namespace) -> None:
     elif env is not None and arguments.episodes > 0:
         mean = run.evaluate(env, arguments.episodes, seed=arguments.seed)
         print(f"mean return of {arguments.episodes} episodes: {mean:.4g}")
+
+
+def _show_agent(file: str) -> None:
+    names = read_file(file)[2]
+    agent = Agent.load(file)
+    text = agent.print("text")
+    print(explain(text, names) if names else text, end="")
+    statistics = agent.statistics
+    print(f"{statistics.classes} classes after {statistics.interactions} interactions")
 
 
 def _plot(arguments: argparse.Namespace) -> None:
@@ -172,6 +200,10 @@ def main(arguments: list[str] | None = None) -> int:
             _learn(parsed)
         elif parsed.command == "plot":
             _plot(parsed)
+        elif parsed.command == "show":
+            _show_agent(parsed.agent)
+        elif parsed.command == "export":
+            _write(parsed.c, Agent.load(parsed.agent).export_c())
         else:
             from . import bench
 

@@ -23,6 +23,12 @@ NAME = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32)
 WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)
 
 
+STORE_READ = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
+STORE_WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
+STORE_ERASE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_uint32)
+STORE_SYNC = c.CFUNCTYPE(c.c_int, c.c_void_p)
+
+
 class Sample(c.Structure):
     """``rlvc_sample``."""
 
@@ -143,6 +149,33 @@ class Split(c.Structure):
     ]
 
 
+class Store(c.Structure):
+    """``rlvc_store``."""
+
+    _fields_ = [
+        ("ctx", c.c_void_p),
+        ("slot_bytes", c.c_uint32),
+        ("read", STORE_READ),
+        ("write", STORE_WRITE),
+        ("erase", STORE_ERASE),
+        ("sync", STORE_SYNC),
+    ]
+
+
+class SnapshotInfo(c.Structure):
+    """``rlvc_snapshot_info``."""
+
+    _fields_ = [
+        ("version", c.c_uint32),
+        ("sequence", c.c_uint32),
+        ("slot", c.c_uint32),
+        ("bytes", c.c_uint32),
+        ("percept_bytes", c.c_uint32),
+        ("feature_bytes", c.c_uint32),
+        ("config", Config),
+    ]
+
+
 class Log(c.Structure):
     """``rlvc_shim_log``."""
 
@@ -208,6 +241,8 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_sample": Sample,
     "rlvc_samples": Samples,
     "rlvc_domain": Domain,
+    "rlvc_store": Store,
+    "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
     "gridworld_maze": Maze,
     "gridworld_error": MazeFault,
@@ -247,6 +282,21 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_agent_check": (c.c_int, [_P]),
     # export.h
     "rlvc_export_c": (c.c_int, [_P, _P, WRITE, _P, _P]),
+    # snapshot.h
+    "rlvc_snapshot_size": (c.c_int, [_P, _P, _P]),
+    "rlvc_save": (c.c_int, [_P, _P]),
+    "rlvc_load": (c.c_int, [_P, _P, _P, c.c_size_t, _P, _P]),
+    "rlvc_snapshot_peek": (c.c_int, [_P, _P]),
+    # descriptors.h, log.h: not used yet
+    "rlvc_descriptors_default": (c.c_int, [_P, _U32, _U32, _U32, c.c_float]),
+    "rlvc_descriptors_domain": (c.c_int, [_P, _P]),
+    "rlvc_descriptors_radius": (c.c_float, [_P]),
+    "rlvc_descriptors_nearest": (c.c_int, [_P, _P, _P, _P, _P]),
+    "rlvc_log_open": (c.c_int, [_P, _U32, _U32, _P, _P]),
+    "rlvc_log_begin": (c.c_int, [_P, _P]),
+    "rlvc_log_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),
+    "rlvc_log_read": (c.c_int, [_P, _U32, _U32, _P, _U32, _P, _P]),
+    "rlvc_log_next": (c.c_int, [_P, _P]),
     # native/shim.h
     "rlvc_shim_layout": (c.POINTER(_Entry), []),
     "rlvc_shim_predict": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P, _P]),
@@ -269,6 +319,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
 OK, E_NULL, E_CONFIG, E_MEMORY, E_ORDER, E_RANGE, E_REWARD, E_BUSY, E_CALLBACK, E_REENTERED = (
     -n for n in range(10)
 )
+E_STORE, E_EMPTY, E_DAMAGED, E_VERSION, E_MISMATCH = (-n for n in range(10, 15))
 GOES_ON, TERMINATED, TRUNCATED = range(3)
 PRINT_TEXT, PRINT_DOT, PRINT_JSON = range(3)
 BUDGET_MIN = 64

@@ -6,6 +6,8 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import json
+from collections.abc import Sequence
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal, NamedTuple
 
@@ -28,7 +30,10 @@ from .errors import (
     RangeError,
     ReenteredError,
     RewardError,
+    SnapshotError,
+    StoreError,
 )
+from .snapshot import MemoryStore, read_file, write_file
 
 _ERRORS: dict[int, type[Error]] = {
     _lib.E_CONFIG: ConfigError,
@@ -39,6 +44,11 @@ _ERRORS: dict[int, type[Error]] = {
     _lib.E_BUSY: BusyError,
     _lib.E_CALLBACK: CallbackError,
     _lib.E_REENTERED: ReenteredError,
+    _lib.E_STORE: StoreError,
+    _lib.E_EMPTY: SnapshotError,
+    _lib.E_DAMAGED: SnapshotError,
+    _lib.E_VERSION: SnapshotError,
+    _lib.E_MISMATCH: SnapshotError,
 }
 
 CHOICE = np.dtype([("action", np.uint8), ("exploited", np.uint8)])
@@ -226,6 +236,15 @@ class Agent:
     def __init__(self, domain: Domain | int, config: Config | int, **changes: Any) -> None:
         if "_address" in self.__dict__:
             raise ReenteredError("an agent is made once")
+        self._make(domain, config, changes, None)
+
+    def _make(
+        self,
+        domain: Domain | int,
+        config: Config | int,
+        changes: dict[str, Any],
+        snapshot: bytes | None,
+    ) -> None:
         if isinstance(domain, int):
             domain = Bits(domain)
         if isinstance(config, int):
@@ -251,11 +270,14 @@ class Agent:
                 f"no memory for an agent of {size.value} bytes: allow fewer with capacity or classes"
             ) from None
         agent = ctypes.c_void_p()
-        self._check(
-            _lib.call.rlvc_agent_init(
-                *references, self._block.ctypes.data, size.value, _byref(agent)
-            )
-        )
+        place = (self._block.ctypes.data, size.value)
+        if snapshot is None:
+            status = _lib.call.rlvc_agent_init(*references, *place, _byref(agent))
+        else:
+            store = MemoryStore(self._snapshot_bytes(), snapshot)
+            reference = _byref(store.native)
+            status = _lib.long_call.rlvc_load(*references, *place, reference, _byref(agent))
+        self._check(status)
         # None while a long call is under way, and after close(): C then answers RLVC_E_NULL.
         self._handle: int | None = agent.value
         self._address = agent.value
@@ -278,7 +300,7 @@ class Agent:
         if error is not None:
             raise error
         if status == _lib.E_NULL:
-            if self._address is None:
+            if getattr(self, "_address", 0) is None:
                 raise ClosedError("the agent is closed")
             if self._handle is None:
                 raise ReenteredError("the agent is in a call: of a callback, or of another thread")
@@ -804,6 +826,103 @@ class Agent:
         write = self._writer(parts)
         self._check(self._long("rlvc_export_c", encoded, write, None, None))
         return b"".join(parts).decode()
+
+    # -------------------------------------------------------------- outliving the process
+
+    def _snapshot_bytes(self) -> int:
+        size = ctypes.c_uint32()
+        references = (_byref(self._native_config), _byref(self._native_domain))
+        self._check(_lib.call.rlvc_snapshot_size(*references, _byref(size)))
+        return size.value
+
+    def snapshot(self) -> bytes:
+        """Give all that decides the agent's future, a learning step under way included.
+
+        Returns
+        -------
+        bytes
+            The same on every machine; ``core/SPEC.md`` says what is in it.
+        """
+        store = MemoryStore(self._snapshot_bytes())
+        self._check(self._long("rlvc_save", _byref(store.native)))
+        return store.newest()
+
+    @classmethod
+    def restore(cls, domain: Domain | int, config: Config | int, snapshot: bytes) -> Agent:
+        """Make an agent out of a snapshot, which goes on as if it had never stopped.
+
+        Parameters
+        ----------
+        domain : Domain or int
+            As it was.
+        config : Config or int
+            As it was, in every field.
+        snapshot : bytes
+            What :meth:`snapshot` gave.
+
+        Returns
+        -------
+        Agent
+
+        Raises
+        ------
+        SnapshotError
+            It is damaged, of another version, or of another config or domain.
+        """
+        agent = cls.__new__(cls)
+        agent._make(domain, config, {}, bytes(snapshot))
+        return agent
+
+    def save(self, file: str | Path, names: Sequence[str] = ()) -> None:
+        """Write the agent to a file, which is there as a whole or as it was before.
+
+        Parameters
+        ----------
+        file : str or Path
+        names : sequence of str
+            What each bit says, for ``python -m rlvc show``.
+
+        Raises
+        ------
+        StoreError
+            The file cannot be written.
+        """
+        write_file(file, self, names)
+
+    @classmethod
+    def load(cls, file: str | Path, domain: Domain | None = None) -> Agent:
+        """Read an agent from a file that :meth:`save` wrote.
+
+        Parameters
+        ----------
+        file : str or Path
+        domain : Domain or None
+            As it was; None if it was :class:`Bits`.
+
+        Returns
+        -------
+        Agent
+
+        Raises
+        ------
+        StoreError
+            The file cannot be read.
+        SnapshotError
+            It is no such file, is damaged, or needs a domain.
+        """
+        bits, config, _, snapshot = read_file(file)
+        if domain is None:
+            if bits is None:
+                raise SnapshotError(f"{file}: its agent has a domain of its own: give it")
+            domain = Bits(bits)
+        try:
+            return cls.restore(domain, config, snapshot)
+        except SnapshotError as error:
+            raise SnapshotError(f"{file}: {error}") from None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the agent; its domain must be one that can be pickled."""
+        return type(self).restore, (self._domain, self._config, self.snapshot())
 
     def check(self) -> None:
         """Check every invariant of the agent's memory, which ``core/SPEC.md`` lists.

@@ -266,4 +266,19 @@ class Encoder:
         -------
         str
         """
-        return re.sub(r"\bbit (\d+)\b", lambda match: self.names[int(match[1])], text)
+        return explain(text, self.names)
+
+
+def explain(text: str, names: Sequence[str]) -> str:
+    """Replace ``bit N`` in a text by the N-th name.
+
+    Parameters
+    ----------
+    text : str
+    names : sequence of str
+
+    Returns
+    -------
+    str
+    """
+    return re.sub(r"\bbit (\d+)\b", lambda match: names[int(match[1])], text)

@@ -53,6 +53,14 @@ class CallbackError(Error, RuntimeError):
     """A callback failed without saying why (``RLVC_E_CALLBACK``)."""
 
 
+class StoreError(Error, OSError):
+    """What a snapshot is kept in cannot be read or written (``RLVC_E_STORE``)."""
+
+
+class SnapshotError(Error, ValueError):
+    """A snapshot is missing, damaged, of another version, or of another config or domain."""
+
+
 class DomainError(Error, TypeError):
     """A method of one's own domain returned something else than it must."""
 

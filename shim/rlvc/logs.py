@@ -179,7 +179,7 @@ def from_npz(path: str | Path) -> Log:
     import zlib
 
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
     except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error, AttributeError) as error:
         raise LogError(f"{path}: cannot be read as NPZ: {error}") from error

@@ -13,7 +13,7 @@ from rlvc import _lib, config, errors
 
 HEADERS = [*(ROOT / "core/include/rlvc").glob("*.h"), ROOT / "shim/native/shim.h"]
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
-FUNCTION = re.compile(r"^RLVC_API\s+([\w\s*]+?[\s*])(rlvc_\w+)\(([^;]*?)\);", re.MULTILINE)
+FUNCTION = re.compile(r"^RLVC_API\s+([\w\s*]+?[\s*])(rlvc_\w+)\(([^;]*)\);", re.MULTILINE)
 SCALARS = {
     "uint8_t": ctypes.c_uint8, "uint32_t": ctypes.c_uint32, "size_t": ctypes.c_size_t,
     "float": ctypes.c_float, "int": ctypes.c_int, "rlvc_status": ctypes.c_int,
@@ -25,7 +25,8 @@ def declared():
     for header in HEADERS:
         text = COMMENT.sub("", header.read_text(encoding="utf-8"))
         for result, name, arguments in FUNCTION.findall(text):
-            taken = [] if arguments == "void" else [a.strip() for a in arguments.split(",")]
+            flat = re.sub(r"\(\*\w+\)\s*\([^()]*\)", "*callback", arguments)
+            taken = [] if flat == "void" else [a.strip() for a in flat.split(",")]
             yield name, result.strip(), taken
 
 

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""Learning from logs, and what is said about damaged ones."""
+
+import numpy as np
+import pytest
+
+import rlvc
+from rlvc import errors, logs
+
+
+def episodes(count=60, seed=1):
+    """Walks along cells 0 to 7, whose exit is 5: observations, actions, rewards, terminated."""
+    random = np.random.default_rng(seed)
+    walks = []
+    for _ in range(count):
+        cells, actions = [int(random.choice([0, 7]))], []
+        while cells[-1] != 5:
+            actions.append(int(random.integers(2)))
+            cells.append(min(max(cells[-1] + (1 if actions[-1] else -1), 0), 7))
+        walks.append((cells, actions))
+    return walks
+
+
+def arrays(**changes):
+    walks = episodes()
+    actions = np.concatenate([actions for _, actions in walks])
+    ends = np.concatenate([np.arange(1, len(a) + 1) == len(a) for _, a in walks])
+    parts = {
+        "observations": np.concatenate([cells for cells, _ in walks]),
+        "actions": actions,
+        "rewards": ends.astype(np.float64),
+        "terminated": ends,
+    }
+    return {k: v for k, v in {**parts, **changes}.items() if v is not None}
+
+
+def optimal(run, observe=np.float64):
+    return [run.act(observe(cell)) for cell in range(8) if cell != 5] == [1, 1, 1, 1, 1, 0, 0]
+
+
+def test_arrays():
+    run = rlvc.learn_from(arrays(), discount=0.9)
+    assert optimal(run)
+    assert run.agent.statistics.interactions == len(arrays()["actions"])
+    # An episode's end takes no room of its own, as episodes are linked.
+    assert run.agent.config.criterion == "residual"
+
+
+def test_next_observations():
+    walks = episodes()
+    before = np.concatenate([cells[:-1] for cells, _ in walks])
+    after = np.concatenate([cells[1:] for cells, _ in walks])
+    run = rlvc.learn_from(arrays(observations=before, next_observations=after), discount=0.9)
+    other = rlvc.learn_from(arrays(), discount=0.9)
+    assert run.agent.print("json") == other.agent.print("json")
+
+
+def test_bits():
+    cells = arrays()["observations"]
+    bits = (cells[:, None] >> np.arange(3) & 1).astype(bool)
+    run = rlvc.learn_from(arrays(observations=bits), discount=0.9)
+    assert run.encoder is None
+    assert [run.act(np.array([[c >> b & 1 for b in range(3)]], bool)[0]) for c in (0, 3, 6, 7)] == [1, 1, 0, 0]
+
+
+def test_npz(tmp_path):
+    file = tmp_path / "log.npz"
+    np.savez(file, **arrays())
+    assert optimal(rlvc.learn_from(file, discount=0.9))
+    assert optimal(rlvc.learn_from(str(file), discount=0.9))
+
+
+def csv(rows, head="cell,action,reward,terminated"):
+    return head + "\n" + "\n".join(rows) + "\n"
+
+
+def csv_rows():
+    rows = []
+    for cells, actions in episodes():
+        for i, action in enumerate(actions):
+            last = int(i + 1 == len(actions))
+            rows.append(f"{cells[i]},{action},{float(last)},{last}")
+    return rows
+
+
+def test_csv(tmp_path):
+    file = tmp_path / "log.csv"
+    file.write_text(csv(csv_rows()), encoding="utf-8")
+    run = rlvc.learn_from(file, columns=["cell"], discount=0.9)
+    assert optimal(run, lambda cell: np.array([cell]))
+    assert run.agent.print("json") == rlvc.learn_from(file, discount=0.9).agent.print("json")
+
+
+def test_csv_of_truncated_episodes(tmp_path):
+    file = tmp_path / "log.csv"
+    head = "episode,x,action,reward,terminated,truncated"
+    file.write_text(
+        csv(["0,1,0,0,0,0", "0,2,1,0,0,1", "0,3,,,,", "1,4,0,0,0,0", "1,5,1,1,1,0", "2,6,0,0,false,True",
+             "3,7,1,0,0,0", "4,8,0,1,1,0"], head), encoding="utf-8"
+    )  # fmt: skip
+    log = logs.read(file)
+    # What the sixth and the seventh line led to is not known.
+    assert np.asarray(log.before)[:, 0].tolist() == [1, 2, 4, 5, 8]
+    assert np.asarray(log.after)[[0, 1, 2], 0].tolist() == [2, 3, 5]
+    assert log.ends.tolist() == [0, 2, 0, 1, 1]
+
+
+def test_exploited_is_used(tmp_path):
+    exploited = np.ones(len(arrays()["actions"]), bool)
+    log = logs.read(arrays(exploited=exploited))
+    assert log.exploited.all()
+    run = rlvc.learn_from(log, criterion="returns", steps=3, discount=0.9)
+    assert run.agent.statistics.step == 3
+    with pytest.raises(errors.ConfigError, match="exploited"):
+        rlvc.learn_from(arrays(), criterion="returns")
+
+
+def test_a_log_that_stops_midway():
+    log = arrays()
+    cut = {key: value[:-3] for key, value in log.items()}
+    assert rlvc.learn_from(cut).agent.statistics.interactions == len(log["actions"]) - 3
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"rewards": None}, "rewards: missing"),
+        ({"speed": np.zeros(3)}, "speed: not known"),
+        ({"actions": np.zeros(0, int)}, "no interaction"),
+        ({"actions": np.zeros(7)}, "actions: float64"),
+        ({"rewards": np.zeros(7)}, r"rewards: \[7\]"),
+        ({"observations": np.zeros(7)}, "observations: 7 of them"),
+        ({"terminated": np.full(len(arrays()["actions"]), "no")}, "terminated: <U2"),
+        ({"actions": arrays()["actions"] - 1}, r"actions: index \d+: -1"),
+        ({"rewards": np.where(np.arange(len(arrays()["actions"])) == 9, np.nan, 0)}, "rewards: index 9"),
+        ({"observations": np.full(len(arrays()["observations"]), "x")}, "observations: <U1"),
+        ({"observations": np.full(len(arrays()["observations"]), np.nan)}, "observations: index 0"),
+        ({"next_observations": np.zeros(3)}, "observations: "),
+    ],
+)
+def test_damaged_arrays(changes, said):
+    with pytest.raises(errors.LogError, match=said):
+        rlvc.learn_from(arrays(**changes))
+
+
+def test_actions_out_of_range():
+    with pytest.raises(errors.LogError, match=r"index \d+: 1 is not in \[0, 1\)"):
+        rlvc.learn_from(arrays(), actions=1)
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04 broken", b"\x93NUMPY", "cut", "pickle"])
+def test_damaged_npz(tmp_path, content):
+    file = tmp_path / "log.npz"
+    if content == "cut":
+        np.savez(file, **arrays())
+        file.write_bytes(file.read_bytes()[:-200])
+    elif content == "pickle":
+        np.savez(file, **arrays(observations=np.array([{}], object)))
+    else:
+        file.write_bytes(content)
+    with pytest.raises(errors.LogError, match=r"log\.npz"):
+        rlvc.learn_from(file)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "line 1: no column action"),
+        ("cell,action,reward\n", "line 1: no column terminated"),
+        ("action,reward,terminated\n0,0,1\n", "line 1: no column of the observation"),
+        ("c,c,action,reward,terminated\n", "line 1: a column is named twice"),
+        (csv([]), "no interaction"),
+        (csv(["1,0,0,0", "2,0,0"]), "line 3: 3 fields, not 4"),
+        (csv(["1,0,0,0", "\n\n2,zero,0,1"]), "line 5: action: 'zero' is no number"),
+        (csv(["1,0,0,0", "2,0.5,0,1"]), "line 3: action: 0.5 is no whole number"),
+        (csv(["1,0,inf,1"]), "line 2: reward: inf"),
+        (csv(["1,0,,1"]), "line 2: reward: nan"),
+        (csv([",0,0,1"]), "line 2: cell: nan"),
+        (csv(["1,0,0,2"]), "line 2: terminated: 2.0"),
+        (csv(["1,,0,1"]), "line 2: terminated without an action"),
+        (csv(["1,300,0,1"]), "actions: index 0: 300"),
+        ('cell,action,reward,terminated\n"1,0,0,1\n', "cannot be read as CSV"),
+    ],
+)
+def test_damaged_csv(tmp_path, text, said):
+    file = tmp_path / "log.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(errors.LogError, match=r"log\.csv: ") as caught:
+        rlvc.learn_from(file)
+    assert said in str(caught.value)
+
+
+def test_other_files(tmp_path):
+    file = tmp_path / "log.txt"
+    file.write_text("", encoding="utf-8")
+    with pytest.raises(errors.LogError, match=r"neither \.npz nor \.csv"):
+        rlvc.learn_from(file)
+    with pytest.raises(errors.LogError, match="cannot be read"):
+        rlvc.learn_from(tmp_path / "none.csv")
+    binary = tmp_path / "log.csv"
+    binary.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(errors.LogError, match="cannot be read"):
+        rlvc.learn_from(binary)
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")  # of what the data set does not say
+def test_minari(tmp_path, monkeypatch):
+    minari = pytest.importorskip("minari")
+    from gymnasium import spaces
+    from minari.data_collector import EpisodeBuffer
+
+    monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+    buffers = [
+        EpisodeBuffer(
+            observations=[np.int64(c) for c in cells],
+            actions=[np.int64(a) for a in actions],
+            rewards=[float(i + 1 == len(actions)) for i in range(len(actions))],
+            terminations=[i + 1 == len(actions) for i in range(len(actions))],
+            truncations=[False] * len(actions),
+        )
+        for cells, actions in episodes()
+    ]
+    dataset = minari.create_dataset_from_buffers(
+        "test/line-v0", buffers, observation_space=spaces.Discrete(8), action_space=spaces.Discrete(2),
+        author="x", author_email="x@example.org", code_permalink="https://example.org", algorithm_name="walk",
+        description="A walk.",
+    )  # fmt: skip
+    run = rlvc.learn_from(dataset, space=dataset.spec.observation_space, discount=0.9)
+    assert optimal(run, np.int64)
+    assert optimal(rlvc.learn_from("test/line-v0", space=spaces.Discrete(8), discount=0.9), np.int64)
+    with pytest.raises(errors.LogError, match="test/none-v0"):
+        rlvc.learn_from("test/none-v0")
