@@ -41,9 +41,12 @@ class Graph:
         self.known = {}                               # what worst() found
         for source in sources:
             stem = folder / f"{source.parent.name}_{source.stem}"
-            subprocess.run(["gcc", *FLAGS, *options, f"-I{ROOT}/core/include", "-c", str(source),
-                            "-o", f"{stem}.o"], check=True)
+            self.compile(options, source, f"{stem}.o")
             self.read(pathlib.Path(f"{stem}.ci").read_text(encoding="utf-8"))
+
+    def compile(self, options, source, output):
+        subprocess.run(["gcc", *FLAGS, *options, f"-I{ROOT}/core/include", "-c", str(source),
+                        "-o", output], check=True)
 
     def read(self, text):
         for match in re.finditer(r'^node: \{ title: "(.*?)" label: "(.*?)"', text, re.MULTILINE):

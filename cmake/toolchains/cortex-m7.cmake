@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: MIT
+# Arm Cortex-M7 with a floating-point unit: QEMU's MPS2 board AN500.
+set(rlvc_triple arm-none-eabi)
+set(rlvc_machine "-mthumb -mcpu=cortex-m7 -mfloat-abi=hard -mfpu=fpv5-d16")
+set(rlvc_flash 0x0)
+set(rlvc_flash_size 0x400000)
+set(rlvc_ram 0x20000000)
+set(rlvc_ram_size 0x400000)
+set(rlvc_emulator qemu-system-arm -icount shift=6,sleep=off -M mps2-an500)
+include(${CMAKE_CURRENT_LIST_DIR}/picolibc.cmake)

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+/* A robot that learns on a microcontroller: the control loop, and a report.
+ *
+ *     settings  what is learnt by, and what a tick may take      robot   a tick of the control loop
+ *     report    what was learnt                                  port    what the machine tells
+ *
+ * What it prints ends in an object of JSON, the same on every machine. Exit status: 0 if no tick overran
+ * and, under the residual criterion, every cell's action is the best one at the end; else 1. */
+#include "port.h"
+#include "report.h"
+#include <stdio.h>
+
+struct loads {
+    uint32_t slice; /* the most instructions of a slice, */
+    uint32_t tick;  /* and of a tick */
+    uint32_t overruns;
+};
+
+static int timed_tick(struct robot *robot, struct loads *loads) {
+    uint32_t start = port_instructions();
+    int status = robot_tick(robot);
+    uint32_t tick = port_instructions() - start;
+    loads->tick = tick > loads->tick ? tick : loads->tick;
+    loads->slice =
+        robot->slice_instructions > loads->slice ? robot->slice_instructions : loads->slice;
+    loads->overruns += tick > TICK_INSTRUCTIONS || robot->slice_instructions > SLICE_INSTRUCTIONS;
+    return status;
+}
+
+/* What stands beside the control loop: how good the policy is after each learning step. */
+static int watch(struct robot *robot, struct policy *policy, struct milestones *reached) {
+    if (report_policy(robot, policy) != 0) {
+        return -1;
+    }
+    report_step(robot, policy);
+    if (policy->optimal_cells < gridworld_sutton.free_cells) {
+        reached->since = 0;
+    } else if (reached->since == 0) {
+        reached->since = robot->interactions;
+    }
+    reached->first = reached->first == 0 ? reached->since : reached->first;
+    return 0;
+}
+
+static int run(struct robot *robot, struct policy *policy, struct milestones *reached,
+               struct loads *loads) {
+    int status = robot_init(robot);
+    report_task();
+    while (status == 0 && robot->steps < STEPS) {
+        status = timed_tick(robot, loads);
+        if (status == 0 && robot->finished) {
+            status = watch(robot, policy, reached);
+        }
+    }
+    return status;
+}
+
+int main(void) {
+    static struct robot robot;
+    static struct policy policy;
+    struct milestones reached = {0, 0};
+    struct loads loads = {0, 0, 0};
+    port_begin();
+    if (run(&robot, &policy, &reached, &loads) != 0) {
+        printf("failed at interaction %u\n", (unsigned)robot.interactions);
+        return 1;
+    }
+    report_pictures(&policy);
+    report_summary(&robot, &policy, &reached);
+    printf("  overruns      %u\n\n", (unsigned)loads.overruns);
+    report_machine(loads.slice, loads.tick);
+    int optimal = policy.optimal_cells == gridworld_sutton.free_cells;
+    int wanted = CRITERION == RLVC_CRITERION_RETURNS || optimal;
+    return report_json(&robot, &policy, &reached) == 0 && wanted && loads.overruns == 0 ? 0 : 1;
+}

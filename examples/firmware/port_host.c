@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* A workstation: neither is known. */
+#include "port.h"
+
+void port_begin(void) {
+}
+
+uint32_t port_instructions(void) {
+    return 0;
+}
+
+uint32_t port_stack(void) {
+    return 0;
+}

@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The size of the core on microcontrollers: code and constant data of each module, worst stack of each
+public function, and the memory of the firmware example. Compares with core/SIZE.md, or writes it there
+with --write. Needs the compilers that tools/setup targets installs."""
+
+import argparse
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import stack
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TABLE = ROOT / "core/SIZE.md"
+SKIPPED = 77
+
+TARGETS = {  # name: prefix, options of the processor
+    "M0": ("arm-none-eabi-", ["-mthumb", "-mcpu=cortex-m0"]),
+    "M3": ("arm-none-eabi-", ["-mthumb", "-mcpu=cortex-m3"]),
+    "M4F": ("arm-none-eabi-", ["-mthumb", "-mcpu=cortex-m4", "-mfloat-abi=hard",
+                               "-mfpu=fpv4-sp-d16"]),
+    "rv32imac": ("riscv64-unknown-elf-", ["-march=rv32imac", "-mabi=ilp32"]),
+}
+PICOLIBC = "--specs=picolibc.specs"
+FLAGS = ["-std=c99", "-ffp-contract=off", "-ffunction-sections", "-fdata-sections", PICOLIBC]
+FLASH_MAX = 20 * 1024  # of the library without printing, on the M3
+RAM_MAX = 32 * 1024    # of learning the Binary Gridworld there
+HELPER_STACK = 64      # granted to a function of the compiler's own library
+
+
+def sources():
+    return sorted(path for folder in ("src", "domains")
+                  for path in (ROOT / "core" / folder).glob("*.c"))
+
+
+def run(*command):
+    return subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE,
+                          text=True).stdout
+
+
+def compile_core(target, level, folder):
+    prefix, options = TARGETS[target]
+    objects = {}
+    for source in sources():
+        name = f"{source.parent.name}/{source.stem}"
+        objects[name] = folder / f"{target}{level}_{source.parent.name}_{source.stem}.o"
+        run(prefix + "gcc", *FLAGS, *options, level, "-fstack-usage", "-fcallgraph-info=su",
+            f"-I{ROOT}/core/include", "-c", source, "-o", objects[name])
+    return objects
+
+
+def sections(prefix, file):
+    """(code, constants, writable data) in bytes."""
+    totals = [0, 0, 0]
+    for line in run(prefix + "size", "-A", "-d", file).splitlines():
+        match = re.match(r"\.(\S+)\s+(\d+)\s", line)
+        if not match:
+            continue
+        kind = match[1].split(".")[0]
+        if kind in ("text", "init"):
+            totals[0] += int(match[2])
+        elif kind in ("rodata", "srodata"):
+            totals[1] += int(match[2])
+        elif kind in ("data", "bss", "sdata", "sbss"):
+            totals[2] += int(match[2])
+    return totals
+
+
+# Everything that learning a maze of bits takes, and nothing of printing.
+LEARNER = """
+#include <rlvc/agent.h>
+#include <rlvc/bits.h>
+void *volatile keep[] = {(void *)rlvc_bits_domain, (void *)rlvc_config_default,
+    (void *)rlvc_agent_size, (void *)rlvc_agent_init, (void *)rlvc_begin, (void *)rlvc_act,
+    (void *)rlvc_observe, (void *)rlvc_learn, (void *)rlvc_predict, (void *)rlvc_stats,
+    (void *)rlvc_q, (void *)rlvc_value, (void *)rlvc_split_at};
+int main(void) { return keep[0] == 0; }
+"""
+
+
+# What a compiler brings along where the processor has no such instruction.
+HELPERS = """
+#include <stdint.h>
+#include <string.h>
+volatile float x, y;
+volatile int32_t i;
+volatile uint32_t u;
+volatile int64_t l;
+volatile uint64_t v;
+char text[99];
+int main(void) {
+    x = x + y; x = x - y; x = x * y; x = x / y;
+    i = x < y; i = x > y; i = x <= y; i = x >= y; i = x == y;
+    x = (float)i; x = (float)u; x = (float)l; x = (float)v;
+    i = (int32_t)x; u = (uint32_t)x;
+    i = i / (int32_t)u; u = u % (uint32_t)i; v = v / u; v = v * v; v = v << i; v = v >> i;
+    memcpy(text, text + u, u); memset(text, 0, u); memmove(text, text + u, u);
+    return memcmp(text, text + u, u);
+}
+"""
+
+
+def linked(target, level, objects, folder):
+    """Bytes of flash of an empty program, one with the compiler's helpers, and one that learns."""
+    prefix, options = TARGETS[target]
+    flash = []
+    for name, text, parts in (("empty", "int main(void) { return 0; }", []),
+                              ("helpers", HELPERS, []), ("learner", LEARNER, objects.values())):
+        source, image = folder / f"{name}.c", folder / f"{name}.elf"
+        source.write_text(text, encoding="utf-8")
+        run(prefix + "gcc", *FLAGS, *options, level, f"-I{ROOT}/core/include", "--crt0=minimal",
+            "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000",
+            "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x80200000",
+            "-Wl,--defsym=__ram_size=0x10000", source, *parts, "-o", image)
+        code, constants, _ = sections(prefix, image)
+        flash.append(code + constants)
+    return flash[2] - flash[1], flash[1] - flash[0]
+
+
+def image_memory(folder):
+    """Static memory of the firmware example on the M3: the whole, and of that the block."""
+    prefix, options = TARGETS["M3"]
+    image = folder / "firmware.elf"
+    firmware = ROOT / "examples/firmware"
+    run(prefix + "gcc", *FLAGS, *options, "-O2", "-DFIRMWARE_RETURNS=0", f"-I{ROOT}/core/include",
+        f"-I{ROOT}/examples/gridworld", "--crt0=semihost", "--oslib=semihost", "-Wl,--gc-sections",
+        "-Wl,--defsym=__flash=0", "-Wl,--defsym=__flash_size=0x400000",
+        "-Wl,--defsym=__ram=0x20000000", "-Wl,--defsym=__ram_size=0x8000",
+        "-Wl,--defsym=__stack_size=0x800",
+        *[firmware / f"{name}.c" for name in ("main", "robot", "report", "port_bare")],
+        *(ROOT / "examples/gridworld").glob("*.c"), *sources(), "-o", image)
+    block = 0
+    for line in run(prefix + "nm", "-S", image).splitlines():
+        if re.search(r" b block$", line):
+            block = int(line.split()[1], 16)
+    return sections(prefix, image)[2], block
+
+
+class Stack(stack.Graph):
+    """The call graph on a target; a helper of the compiler's library is granted HELPER_STACK."""
+
+    def __init__(self, objects):
+        super().__init__([], [], None)
+        for file in objects.values():
+            self.read(file.with_suffix(".ci").read_text(encoding="utf-8"))
+
+    def worst(self, title):
+        if title not in self.functions and title not in stack.EXTERNAL:
+            return HELPER_STACK, None
+        return super().worst(title)
+
+
+def module_table(objects):
+    names = [f"{source.parent.name}/{source.stem}" for source in sources()]
+    yield "| module | " + " | ".join(f"{target} code | const" for target in TARGETS) + " |"
+    yield "|---|" + "--:|--:|" * len(TARGETS)
+    totals = [0] * (2 * len(TARGETS))
+    for name in names:
+        row = []
+        for target, (prefix, _) in TARGETS.items():
+            code, constants, data = sections(prefix, objects[target][name])
+            if data != 0:
+                raise SystemExit(f"{name} has {data} bytes of writable data on {target}")
+            row += [code, constants]
+        totals = [a + b for a, b in zip(totals, row)]
+        yield f"| `{name}` | " + " | ".join(f"{n:,}" for n in row) + " |"
+    yield "| all | " + " | ".join(f"{n:,}" for n in totals) + " |"
+
+
+def stack_table(objects):
+    graphs = {target: Stack(objects[target]) for target in TARGETS}
+    yield "| function | " + " | ".join(TARGETS) + " |"
+    yield "|---|" + "--:|" * len(TARGETS)
+    for name in stack.public_functions():
+        yield f"| `{name}` | " + " | ".join(
+            str(graph.worst(name)[0]) for graph in graphs.values()) + " |"
+
+
+def table(folder, compilers):
+    objects = {target: compile_core(target, "-O2", folder) for target in TARGETS}
+    small = {target: compile_core(target, "-Os", folder) for target in ("M0", "M3")}
+    flash = {"-O2": {target: linked(target, "-O2", objects[target], folder) for target in TARGETS},
+             "-Os": {target: linked(target, "-Os", small[target], folder) for target in small}}
+    memory, block = image_memory(folder)
+    yield f"""# Size on microcontrollers
+
+{compilers}; bytes.
+Written by `tools/check/size.py --write`; the stage `targets` of the tests fails when it is stale. No module
+has writable data.
+
+## A learner in flash
+
+What the linker keeps of the library in a program that learns by bits and does not print. Beside it
+stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
+division). On the M3 the library may take {FLASH_MAX:,} with -Os.
+
+| | {' | '.join(TARGETS)} |
+|---|{'--:|' * len(TARGETS)}"""
+    for level, sizes in flash.items():
+        for number, what in enumerate(("library", "helpers")):
+            yield f"| {level}, {what} | " + " | ".join(
+                f"{sizes[target][number]:,}" if target in sizes else "" for target in TARGETS) + " |"
+    yield f"""
+## Memory of the firmware example
+
+Learning the Binary Gridworld on the M3, in an image that is linked for {RAM_MAX:,} bytes of memory:
+
+| what | bytes |
+|---|--:|
+| the agent's block | {block:,} |
+| other static data, of the example and of its C library | {memory - block:,} |
+| stack set aside (measured: less than that) | 2,048 |
+| all | {memory + 2048:,} |
+
+## Modules
+
+Code and constant data of each, with `-O2`, before the linker leaves out what is not called.
+"""
+    yield from module_table(objects)
+    yield f"""
+## Worst stack
+
+With `-O2`, the callbacks that it calls not counted; {HELPER_STACK} are granted to each helper of a compiler's
+library.
+"""
+    yield from stack_table(objects)
+    if flash["-Os"]["M3"][0] > FLASH_MAX or memory + 2048 > RAM_MAX:
+        print(f"too large: {flash['-Os']['M3'][0]} bytes of flash, {memory + 2048} of memory",
+              file=sys.stderr)
+        raise SystemExit(1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="write core/SIZE.md")
+    arguments = parser.parse_args()
+    prefixes = sorted({prefix for prefix, _ in TARGETS.values()})
+    missing = [prefix for prefix in prefixes if not shutil.which(prefix + "gcc")]
+    if missing:
+        print("skipped: there is no " + ", ".join(prefix + "gcc" for prefix in missing))
+        return SKIPPED
+    compilers = " and ".join(f"{prefix}gcc {run(prefix + 'gcc', '-dumpfullversion').strip()}"
+                             for prefix in prefixes)
+    with tempfile.TemporaryDirectory() as folder:
+        text = "\n".join(table(pathlib.Path(folder), compilers)) + "\n"
+    if arguments.write:
+        TABLE.write_text(text, encoding="utf-8")
+        return 0
+    committed = TABLE.read_text(encoding="utf-8") if TABLE.exists() else ""
+    if committed == text:
+        return 0
+    if committed and f"\n{compilers};" not in committed:
+        print(f"skipped: the figures are of other compilers than {compilers}")
+        return SKIPPED
+    print("core/SIZE.md is stale: run tools/check/size.py --write", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
