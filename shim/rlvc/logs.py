@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,8 @@ class Log:
         Whether the action was the greedy one of the policy that acted; None if not known.
     where : str
         The file or the data set, for what is said about damage.
+    columns : list of str
+        What the numbers of an observation are called, as far as that is known.
     """
 
     before: Any
@@ -55,6 +58,7 @@ class Log:
     ends: npt.NDArray[np.uint8]
     exploited: npt.NDArray[np.bool_] | None
     where: str
+    columns: list[str] = dataclasses.field(default_factory=list)
 
     def __len__(self) -> int:
         """Give the number of interactions."""
@@ -306,6 +310,7 @@ def _from_table(
             ends[rows],
             exploited[rows] if "exploited" in table else None,
             where,
+            seen,
         )
     )
 
@@ -437,6 +442,11 @@ def _space_of(log: Log) -> Any:
     return spaces.Box(-np.inf, np.inf, values.shape[1:], np.float64)
 
 
+def _in_words(name: str, columns: list[str]) -> str:
+    """Call ``x[i]``, or ``x`` if there is but one, by its column's name."""
+    return re.sub(r"^x(?:\[(\d+)\])?", lambda match: columns[int(match[1] or 0)], name)
+
+
 def _encoded(
     log: Log, encoder: Encoder | None, space: Any, thresholds: int
 ) -> tuple[int, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
@@ -456,6 +466,8 @@ def _encoded(
             step = max(1, len(log) // _SAMPLES)
             samples = [log.before[i] for i in range(0, len(log), step)]
         encoder = Encoder(chosen, samples, thresholds)
+        if log.columns:
+            encoder.names = [_in_words(name, log.columns) for name in encoder.names]
     sides = []
     for side, name in ((log.before, "observations"), (log.after, "next observations")):
         records = []

@@ -305,8 +305,15 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
         upper.plot(
             points, [record["classes"] for record in run["history"]], color=_BLUE, linewidth=thin
         )
-        heights = [math.nan if (v := record[second]) is None else v for record in run["history"]]
-        lower.plot(points, heights, color=_ORANGE, linewidth=thin, linestyle="-")
+        known = [record for record in run["history"] if record[second] is not None]
+        lower.plot(
+            [record["interactions"] for record in known],
+            [record[second] for record in known],
+            color=_ORANGE,
+            linewidth=thin,
+            marker="o" if len(runs) == 1 else None,
+            markersize=3.5,
+        )
     upper.set_ylabel("classes")
     lower.set_ylabel("optimal cells" if optimal else "mean return of an episode")
     lower.set_xlabel("interactions")

@@ -47,7 +47,10 @@ class Own(Corridor):
         fault = self.hook("oracle")
         if fault is not None:
             return fault
-        best = max(range(1, 8), key=lambda f: abs(np.mean(percepts[:below] >= f) - np.mean(percepts[below:] >= f)))
+        best = max(
+            range(1, 8),
+            key=lambda f: abs(np.mean(percepts[:below] >= f) - np.mean(percepts[below:] >= f)),
+        )
         return np.int16(best), 7
 
 
@@ -73,7 +76,9 @@ def test_own_domains_learn(walk, make):
     assert agent.predict(np.array([4], np.uint8)).action == 1
     assert agent.predict(np.array([6], np.uint8)).action == 0
     many = agent.predict(np.arange(8, dtype=np.uint8)[:, None])
-    assert [agent.predict(np.array([i], np.uint8)).class_id for i in range(8)] == many.class_id.tolist()
+    assert [
+        agent.predict(np.array([i], np.uint8)).class_id for i in range(8)
+    ] == many.class_id.tolist()
     assert all(split.name == f"at {split.feature} or beyond" for split in agent.splits)
 
 
@@ -182,7 +187,11 @@ def test_a_callback_that_reenters(walk, caller, reentry):
         agent.learn()
     before = learnt(agent)
     domain.fault = ("name" if caller == "print" else "exhibits", lambda: REENTRIES[reentry](agent))
-    calls = {"learn": agent.learn, "predict": lambda: agent.predict(bytes([3])), "print": agent.print}
+    calls = {
+        "learn": agent.learn,
+        "predict": lambda: agent.predict(bytes([3])),
+        "print": agent.print,
+    }
     with pytest.raises(errors.ReenteredError):
         calls[caller]()
     domain.fault = None
@@ -338,7 +347,9 @@ def test_wrong_rewards(agent, reward):
     assert state(agent) == before
 
 
-@pytest.mark.parametrize("choice", [3, -1, 256, 2**40, 0.5, None, "a", (0,), (3, True), (0, True, 1)])
+@pytest.mark.parametrize(
+    "choice", [3, -1, 256, 2**40, 0.5, None, "a", (0,), (3, True), (0, True, 1)]
+)
 def test_wrong_actions(agent, choice):
     before = state(agent)
     with pytest.raises(errors.RangeError):

@@ -200,7 +200,10 @@ def test_the_maze_is_a_proper_environment():
     env = gymnasium.make("rlvc/BinaryGridworld-v0")
     check_env(env.unwrapped, skip_render_check=True)
     assert env.observation_space == spaces.MultiBinary(18)
-    assert gymnasium.make("rlvc/BinaryGridworld-v0", render_mode="ansi").unwrapped.maze.rows[0] == ".......#*"
+    assert (
+        gymnasium.make("rlvc/BinaryGridworld-v0", render_mode="ansi").unwrapped.maze.rows[0]
+        == ".......#*"
+    )
 
 
 def test_the_maze_is_learnt_and_drawn():
@@ -233,12 +236,21 @@ def test_other_mazes(tmp_path):
     file.write_text("..*\n.#.\n", encoding="utf-8")
     env = rlvc.envs.BinaryGridworld(file, distractors=0)
     assert env.observation_space == spaces.MultiBinary(3)
-    for text, place in (("..\n", "maze"), ("..*\n.x.\n", "line 2, column 2"), ("..*\n.\n", "line 2")):
+    for text, place in (
+        ("..\n", "maze"),
+        ("..*\n.x.\n", "line 2, column 2"),
+        ("..*\n.\n", "line 2"),
+    ):
         with pytest.raises(errors.MazeError, match=place):
             rlvc.envs.BinaryGridworld(text)
     with pytest.raises(errors.MazeError, match="cannot be read"):
         rlvc.envs.BinaryGridworld(tmp_path / "none.txt")
-    for wrong in ({"slip": 2.0}, {"distractors": 1020}, {"distractors": -1}, {"render_mode": "human"}):
+    for wrong in (
+        {"slip": 2.0},
+        {"distractors": 1020},
+        {"distractors": -1},
+        {"render_mode": "human"},
+    ):
         with pytest.raises(errors.ConfigError):
             rlvc.envs.BinaryGridworld(**wrong)
 

@@ -60,7 +60,12 @@ def test_bits():
     bits = (cells[:, None] >> np.arange(3) & 1).astype(bool)
     run = rlvc.learn_from(arrays(observations=bits), discount=0.9)
     assert run.encoder is None
-    assert [run.act(np.array([[c >> b & 1 for b in range(3)]], bool)[0]) for c in (0, 3, 6, 7)] == [1, 1, 0, 0]
+    assert [run.act(np.array([[c >> b & 1 for b in range(3)]], bool)[0]) for c in (0, 3, 6, 7)] == [
+        1,
+        1,
+        0,
+        0,
+    ]
 
 
 def test_npz(tmp_path):
@@ -88,6 +93,7 @@ def test_csv(tmp_path):
     file.write_text(csv(csv_rows()), encoding="utf-8")
     run = rlvc.learn_from(file, columns=["cell"], discount=0.9)
     assert optimal(run, lambda cell: np.array([cell]))
+    assert "cell > 3.5?" in run.text()
     assert run.agent.print("json") == rlvc.learn_from(file, discount=0.9).agent.print("json")
 
 
@@ -132,7 +138,10 @@ def test_a_log_that_stops_midway():
         ({"observations": np.zeros(7)}, "observations: 7 of them"),
         ({"terminated": np.full(len(arrays()["actions"]), "no")}, "terminated: <U2"),
         ({"actions": arrays()["actions"] - 1}, r"actions: index \d+: -1"),
-        ({"rewards": np.where(np.arange(len(arrays()["actions"])) == 9, np.nan, 0)}, "rewards: index 9"),
+        (
+            {"rewards": np.where(np.arange(len(arrays()["actions"])) == 9, np.nan, 0)},
+            "rewards: index 9",
+        ),
         ({"observations": np.full(len(arrays()["observations"]), "x")}, "observations: <U1"),
         ({"observations": np.full(len(arrays()["observations"]), np.nan)}, "observations: index 0"),
         ({"next_observations": np.zeros(3)}, "observations: "),
@@ -227,6 +236,8 @@ def test_minari(tmp_path, monkeypatch):
     )  # fmt: skip
     run = rlvc.learn_from(dataset, space=dataset.spec.observation_space, discount=0.9)
     assert optimal(run, np.int64)
-    assert optimal(rlvc.learn_from("test/line-v0", space=spaces.Discrete(8), discount=0.9), np.int64)
+    assert optimal(
+        rlvc.learn_from("test/line-v0", space=spaces.Discrete(8), discount=0.9), np.int64
+    )
     with pytest.raises(errors.LogError, match="test/none-v0"):
         rlvc.learn_from("test/none-v0")

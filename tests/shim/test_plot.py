@@ -155,6 +155,9 @@ def test_errors_are_one_line(arguments, capsys):
 @pytest.mark.parametrize("arguments", [[], ["learn"], ["plot"], ["bench"]])
 def test_help(arguments):
     done = subprocess.run(
-        [sys.executable, "-m", "rlvc", *arguments, "--help"], capture_output=True, text=True, check=True
+        [sys.executable, "-m", "rlvc", *arguments, "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
     )
     assert done.stdout.startswith("usage: python -m rlvc")

@@ -81,7 +81,11 @@ def test_another_config_or_domain_is_refused(walk):
     agent = walk()
     snapshot = agent.snapshot()
     config = agent.config
-    for domain, changed in ((3, config.replace(seed=9)), (9, config), (3, config.replace(capacity=10))):
+    for domain, changed in (
+        (3, config.replace(seed=9)),
+        (9, config),
+        (3, config.replace(capacity=10)),
+    ):
         with pytest.raises(errors.SnapshotError):
             rlvc.Agent.restore(domain, changed, snapshot)
     with pytest.raises(errors.SnapshotError):
@@ -97,7 +101,7 @@ def test_the_command_shows_and_exports(tmp_path, capsys):
     shown = capsys.readouterr().out
     assert command.main(["show", str(file)]) == 0
     assert capsys.readouterr().out == shown
-    assert "x > 1.5?" in shown or "x[0] > 1.5?" in shown
+    assert "x > 1.5?" in shown
     assert command.main(["export", str(file), "--c", str(header)]) == 0
     assert "policy_act" in header.read_text(encoding="utf-8")
     assert command.main(["show", str(log)]) == 1

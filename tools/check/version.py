@@ -16,6 +16,7 @@ PLACES = [
     ("core/include/rlvc/rlvc.h",
      r"^#define RLVC_VERSION_MAJOR (\d+)\n#define RLVC_VERSION_MINOR (\d+)\n"
      r"#define RLVC_VERSION_PATCH (\d+)$"),
+    ("shim/rlvc/_version.py", r'^__version__ = "(.*)"$'),
     ("CHANGELOG.md", r"^## \[(\d[^\]]*)\]"),
 ]
 

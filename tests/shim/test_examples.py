@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""The examples run, and the README shows the one it says it shows."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+EXAMPLES = sorted((ROOT / "examples").glob("[0-9][0-9]_*.py"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_example(example, tmp_path):
+    done = subprocess.run(
+        [sys.executable, str(example)], cwd=tmp_path, capture_output=True, text=True, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout
+    if "figures" in example.stem:
+        drawn = {path.name for path in tmp_path.iterdir()}
+        assert {
+            "maze.png",
+            "maze.svg",
+            "tree.svg",
+            "values.png",
+            "curve.png",
+            "splits.png",
+        } <= drawn
+    if "lake" in example.stem:
+        assert float(done.stdout.split("mean return:")[1]) >= 0.7
+    if "log" in example.stem:
+        answers = re.findall(r"(heat|wait)$", done.stdout, re.MULTILINE)
+        assert answers[0] == "heat"
+        assert answers[-1] == "wait"
+
+
+def test_the_readme_shows_the_example():
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    example = (ROOT / "examples/02_frozen_lake.py").read_text(encoding="utf-8")
+    match = re.search(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
+    assert match, "README.md has no Python program"
+    assert match[1] == example[example.index("import gymnasium") :]
