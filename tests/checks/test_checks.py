@@ -146,6 +146,8 @@ def test_version(tree):
     tree.write("core/include/rlvc/rlvc.h", '#define RLVC_VERSION_MAJOR 1\n'
                '#define RLVC_VERSION_MINOR 2\n#define RLVC_VERSION_PATCH 3\n'
                '#define RLVC_VERSION "1.2.3"\n')
+    (tree.folder / "shim/rlvc").mkdir(parents=True)
+    tree.write("shim/rlvc/_version.py", '__version__ = "1.2.3"\n')
     tree.write("CHANGELOG.md", "## [1.2.3] - unreleased\n")
     assert tree.check("version", "--project", "1.2.3")[0] == 0
     assert tree.check("version", "--project", "1.2.4")[0] == 1

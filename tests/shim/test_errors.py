@@ -2,6 +2,7 @@
 """Whatever one gets wrong is a named exception, and the agent is as it was before."""
 
 import gc
+import signal
 import threading
 
 import numpy as np
@@ -471,3 +472,23 @@ def test_buffers_and_callbacks_live_as_long_as_the_agent(walk):
     assert agent.learn().done
     del junk
     assert agent.classes > 1
+
+
+def test_ctrl_c_stops_a_long_step():
+    """A signal ends seconds of learning within a slice, and the agent can be used."""
+    random = np.random.default_rng(1)
+    count = 200_000
+    agent = rlvc.Agent(256, 4, capacity=count, classes=500)
+    percepts = random.integers(256, size=(count, 32), dtype=np.uint8)
+    choices = np.zeros(count, rlvc.CHOICE)
+    choices["action"] = random.integers(4, size=count)
+    rewards = (percepts[:, 0] + 1.0 * percepts[:, 1]).astype(np.float32)
+    agent.observe_many(percepts, choices, rewards, percepts, np.ones(count, np.uint8))
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        agent.learn()
+    assert agent.statistics.step == 0
+    agent.check()
+    agent.predict(percepts[:10])
+    assert agent.learn(1000).done is False
