@@ -65,7 +65,9 @@ void check(const rlvc_vision_config &config) {
     check_scale("si", config.si, 0.5f, 8);
     check_share("k", config.k, 0.25f);
     check_share("threshold", config.threshold, 1);
-    check_scale("sigma", config.sigma, 0.5f, 8);
+    const bool sift = config.descriptor == RLVC_DESCRIPTOR_SIFT ||
+                      config.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
+    check_scale("sigma", config.sigma, sift ? 1 : 0.5f, 8);
 }
 
 } // namespace rlvc

@@ -2,7 +2,8 @@
 // Colour Harris points (section 6.2; Montesinos, Gouet and Deriche): with Gaussian derivatives of
 // scale sd of each channel and integration over scale si,
 //
-//     M = G_si * sum over channels of w [I_x^2, I_x I_y; I_x I_y, I_y^2],  H = det M - k (trace M)^2,
+//     M = G_si * sum over channels of w [I_x^2, I_x I_y; I_x I_y, I_y^2],
+//     H = det M - k (trace M)^2,
 //
 // and a point is a local maximum of H that is positive.
 //

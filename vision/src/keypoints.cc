@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+
 namespace rlvc {
 namespace {
 
@@ -12,6 +14,11 @@ namespace {
 // it.
 constexpr int orb_edge = 31;
 constexpr int orb_border = orb_edge + 1;
+
+// OpenCV's SIFT clips its window to the picture and then, if less than 6 pixels are left of its
+// radius, writes past the end of a buffer (seen in 4.6): so it gets no picture smaller than this,
+// and check() no smaller scale than 1.
+constexpr int sift_side_min = 8;
 
 // Who OpenCV hands back in what order is its own affair, so each point carries its number.
 size_t number_of(const cv::KeyPoint &keypoint) {
@@ -52,11 +59,22 @@ void Keypoints::describe(const Picture &picture, const std::vector<rlvc_point> &
         describe_by_orb(grey, vectors);
 }
 
+// The picture mirrored beyond its edge. The points move with it.
+cv::Mat Keypoints::with_border(const cv::Mat &grey, int border) {
+    cv::Mat bordered;
+    cv::copyMakeBorder(grey, bordered, border, border, border, border, cv::BORDER_REFLECT_101);
+    for (cv::KeyPoint &keypoint : keypoints_)
+        keypoint.pt += cv::Point2f(static_cast<float>(border), static_cast<float>(border));
+    return bordered;
+}
+
 // SIFT's numbers are whole, 0 to 255, and the vector is 512 long.
 void Keypoints::describe_by_sift(const cv::Mat &grey, float *vectors) {
     const size_t count = keypoints_.size();
-    cv::Mat described;
-    sift_->compute(grey, keypoints_, described);
+    cv::Mat bordered = grey, described;
+    if (std::min(grey.cols, grey.rows) < sift_side_min)
+        bordered = with_border(grey, sift_side_min);
+    sift_->compute(bordered, keypoints_, described);
     expect_all(keypoints_.size(), count);
     for (size_t i = 0; i < count; i++) {
         const float *row = described.ptr<float>(static_cast<int>(i));
@@ -68,12 +86,8 @@ void Keypoints::describe_by_sift(const cv::Mat &grey, float *vectors) {
 
 void Keypoints::describe_by_orb(const cv::Mat &grey, float *vectors) {
     const size_t count = keypoints_.size();
-    cv::Mat bordered, described;
-    cv::copyMakeBorder(grey, bordered, orb_border, orb_border, orb_border, orb_border,
-                       cv::BORDER_REFLECT_101);
-    for (cv::KeyPoint &keypoint : keypoints_)
-        keypoint.pt += cv::Point2f(orb_border, orb_border);
-    orb_->compute(bordered, keypoints_, described);
+    cv::Mat described;
+    orb_->compute(with_border(grey, orb_border), keypoints_, described);
     expect_all(keypoints_.size(), count);
     for (size_t i = 0; i < count; i++) {
         const uint8_t *row = described.ptr<uint8_t>(static_cast<int>(i));

@@ -22,6 +22,7 @@ class Keypoints {
                   const std::vector<float> &directions, float *vectors);
 
   private:
+    cv::Mat with_border(const cv::Mat &grey, int border);
     void describe_by_sift(const cv::Mat &grey, float *vectors);
     void describe_by_orb(const cv::Mat &grey, float *vectors);
 

@@ -3,8 +3,8 @@
 
 #include "failure.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 namespace rlvc {
@@ -36,7 +36,8 @@ Picture checked(const rlvc_picture &picture, const char *what) {
     if (picture.height > 1 && picture.stride < row && picture.stride > -row)
         refuse(name + ".stride is " + std::to_string(picture.stride) + ", but a row is " +
                std::to_string(row) + " bytes");
-    if (picture.height > 1 && std::abs(picture.stride) > PTRDIFF_MAX / picture.height)
+    const ptrdiff_t most = PTRDIFF_MAX / static_cast<ptrdiff_t>(picture.height);
+    if (picture.height > 1 && (picture.stride > most || picture.stride < -most))
         refuse(name + ".stride is " + std::to_string(picture.stride) +
                ", which no memory can hold so many rows of");
     return {picture.pixels,

@@ -104,9 +104,10 @@ typedef struct rlvc_vision_config {
     float k;             /* H = det M - k (trace M)^2, [0, 0.25). Default 0.04 */
     float threshold;     /* a point's response exceeds this share of the picture's largest, [0, 1).
                             Default 0.001 */
-    float sigma;         /* pixels: scale of the vectors, [0.5, 8]: of the Gaussian derivatives, or
-                            SIFT's scale (its window is 12 sigma wide); ORB's window is fixed, and
-                            only its direction is taken at this scale. Default 2.5, SIFT 6, ORB 5 */
+    float sigma;         /* pixels: scale of the vectors, [0.5, 8], for SIFT [1, 8]: that of the
+                            Gaussian derivatives, or SIFT's own (its window is 12 sigma wide); ORB's
+                            window is fixed, and only its direction is taken at this scale. Default
+                            2.5, SIFT 6, ORB 5 */
 } rlvc_vision_config;
 
 /* Fills *config with the defaults for a descriptor. O(1).
