@@ -6,6 +6,7 @@
 //     policy       what the tree does in each cell, compared with the optimum
 //     picture, summary, screen                      what is shown
 //     report, output_file                           what is written
+//     tiled                                         the other subcommand, in a folder of its own
 //
 // Exit status: 0; 2 after a failure, with one line on stderr; 128 + n after signal n.
 #include "failure.h"
@@ -18,8 +19,10 @@
 #include "report.h"
 #include "screen.h"
 #include "summary.h"
+#include "tiled.h"
 
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 namespace {
@@ -105,7 +108,11 @@ int complain(const std::string &message) {
 int main(int argc, char **argv) {
     watch_for_interrupts();
     try {
-        run(argc, argv);
+        if (argc > 1 && std::strcmp(argv[1], "tiled") == 0) {
+            run_tiled(argc - 1, argv + 1);
+        } else {
+            run(argc, argv);
+        }
         return 0;
     } catch (const Interrupted &interrupted) {
         complain(std::string("interrupted after ") + interrupted.what() + "; nothing was written");

@@ -212,6 +212,7 @@ bool read_options(int argc, char **argv, Options &options) {
     app.require_subcommand(1);
     CLI::App &binary = *app.add_subcommand(
         "binary", "The Binary Gridworld (section 6.1): a cell is seen as a string of bits");
+    app.footer("Another subcommand, tiled, has a help of its own: run_gridworld tiled --help");
     binary.set_version_flag("--version", version, "Print the version and exit");
     add_learning(binary, options);
     add_world(binary, options);
@@ -223,8 +224,8 @@ bool read_options(int argc, char **argv, Options &options) {
         app.exit(asked);
         return false;
     } catch (const CLI::RequiredError &) {
-        throw Failure(argc > 1 ? std::string(argv[1]) + ": not a subcommand; there is 'binary'"
-                               : "a subcommand is wanted: 'binary' (see --help)");
+        throw Failure(argc > 1 ? std::string(argv[1]) + ": not a subcommand; there are 'binary' and 'tiled'"
+                               : "a subcommand is wanted: 'binary' or 'tiled' (see --help)");
     } catch (const CLI::ArgumentMismatch &error) {
         const std::string what = error.what();
         throw Failure(what.substr(0, what.find(':')) + ": takes one value, once");

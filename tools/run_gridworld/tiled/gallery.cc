@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "gallery.h"
+
+#include "../check.h"
+#include "../interrupt.h"
+
+#include <chrono>
+
+namespace {
+
+void check_vision(rlvc_vision_status status, const rlvc_vision_error &error) {
+    if (status != RLVC_VISION_OK) {
+        throw Failure(error.text[0] != '\0' ? error.text : rlvc_vision_status_text(status));
+    }
+}
+
+rlvc_picture as_picture(const cv::Mat &mat) {
+    rlvc_picture picture{};
+    picture.pixels = mat.data;
+    picture.stride = static_cast<std::ptrdiff_t>(mat.step);
+    picture.width = static_cast<uint32_t>(mat.cols);
+    picture.height = static_cast<uint32_t>(mat.rows);
+    picture.format = mat.channels() == 1 ? RLVC_PICTURE_GREY : RLVC_PICTURE_BGR;
+    return picture;
+}
+
+bool is_invariants(uint32_t descriptor) {
+    return descriptor == RLVC_DESCRIPTOR_INVARIANTS ||
+           descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS;
+}
+
+rlvc_vision_config make_config(const TiledOptions &options) {
+    rlvc_vision_config config;
+    check_vision(rlvc_vision_config_default(options.descriptor, &config), {});
+    config.points = options.points;
+    config.sigma = options.sigma;
+    config.normalise = options.normalise;
+    // SIFT and ORB lose nothing as bytes.
+    config.form = is_invariants(options.descriptor) ? RLVC_FORM_FLOAT : RLVC_FORM_INT8;
+    return config;
+}
+
+// The published vectors are compared by Mahalanobis's distance; their square roots by what changes
+// from view to view, if there are views, or from copy to copy.
+uint32_t kind_of_metric(const TiledOptions &options) {
+    if (options.descriptor == RLVC_DESCRIPTOR_INVARIANTS) {
+        return RLVC_METRIC_COVARIANCE;
+    }
+    const bool changes = options.poses.size() > 1 || options.light > 0.0f || options.noise > 0.0f;
+    if (options.descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS) {
+        return changes ? RLVC_METRIC_CHANGE : RLVC_METRIC_COVARIANCE;
+    }
+    return RLVC_METRIC_PLAIN;
+}
+
+using Fitter = std::unique_ptr<rlvc_fitter, void (*)(rlvc_fitter *)>;
+
+// Only of pictures to learn from: nothing of those held out is looked at.
+void feed(rlvc_fitter *fitter, const TiledOptions &options, const std::vector<Object> &objects) {
+    rlvc_vision_error error{};
+    std::mt19937 random(options.seed);
+    for (uint32_t i = 0; i < objects.size(); i++) {
+        const cv::Mat &first = objects[i].views.at(options.poses.front());
+        for (const int angle : options.poses) {
+            const cv::Mat &view = objects[i].views.at(angle);
+            const rlvc_picture a = as_picture(first), b = as_picture(view);
+            check_vision(rlvc_fitter_add(fitter, &b, i, &error), error);
+            if (angle != options.poses.front()) {
+                check_vision(rlvc_fitter_pair(fitter, &a, &b, RLVC_PAIR_VIEWS, &error), error);
+            }
+        }
+        if (options.light > 0.0f || options.noise > 0.0f) {
+            const cv::Mat changed = disturb(first, options, random);
+            const rlvc_picture a = as_picture(first), b = as_picture(changed);
+            check_vision(rlvc_fitter_pair(fitter, &a, &b, RLVC_PAIR_COPIES, &error), error);
+        }
+    }
+}
+
+} // namespace
+
+Gallery::Gallery(const TiledOptions &options, std::vector<Object> objects,
+                 const std::function<void(const std::string &)> &progress)
+    : objects_(std::move(objects)), config_(make_config(options)),
+      metric_(nullptr, rlvc_metric_destroy), extractor_(nullptr, rlvc_extractor_destroy) {
+    prepare(options);
+    extract(options, progress);
+}
+
+void Gallery::prepare(const TiledOptions &options) {
+    rlvc_vision_error error{};
+    rlvc_metric *metric = nullptr;
+    if (!options.metric.empty()) {
+        check_vision(rlvc_metric_load(options.metric.c_str(), &metric, &error), error);
+        metric_.reset(metric);
+    } else {
+        rlvc_fitter *made = nullptr;
+        check_vision(rlvc_fitter_create(&config_, &made, &error), error);
+        const Fitter fitter(made, rlvc_fitter_destroy);
+        feed(fitter.get(), options, objects_);
+        check_vision(
+            rlvc_fitter_fit(fitter.get(), kind_of_metric(options), options.share, &metric, &error),
+            error);
+        metric_.reset(metric);
+    }
+    if (!options.save_metric.empty()) {
+        check_vision(rlvc_metric_save(metric_.get(), options.save_metric.c_str(), &error), error);
+    }
+    rlvc_extractor *extractor = nullptr;
+    check_vision(rlvc_extractor_create(&config_, metric_.get(), &extractor, &error), error);
+    extractor_.reset(extractor);
+    tau_ = rlvc_metric_tau(metric_.get());
+    const float radius = tau_ / rlvc_extractor_step(extractor);
+    check(rlvc_descriptors_default(
+              &descriptors_, config_.points, rlvc_descriptor_dimensions(config_.descriptor),
+              config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT,
+              radius),
+          "rlvc_descriptors_default");
+    descriptors_.margin = options.margin;
+    descriptors_.candidates = options.candidates;
+}
+
+Sight Gallery::look(uint32_t object, int angle, const cv::Mat &picture) {
+    rlvc_vision_error error{};
+    Sight sight{object, angle, std::vector<uint32_t>(rlvc_vision_percept_bytes(&config_) / 4),
+                std::vector<rlvc_point>(config_.points)};
+    const rlvc_picture seen = as_picture(picture);
+    check_vision(rlvc_extractor_extract(extractor_.get(), &seen, sight.percept.data(),
+                                        sight.percept.size() * 4, sight.points.data(), &error),
+                 error);
+    sight.points.resize(sight.percept.front());
+    return sight;
+}
+
+void Gallery::index(const Sight &sight) {
+    const std::size_t bytes =
+        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors_.dimensions, descriptors_.form);
+    const char *vector = reinterpret_cast<const char *>(sight.percept.data() + 1);
+    for (const rlvc_point &point : sight.points) {
+        places_.insert({std::string(vector, bytes), {sight.object, sight.angle, point}});
+        vector += bytes;
+    }
+}
+
+void Gallery::extract(const TiledOptions &options,
+                      const std::function<void(const std::string &)> &progress) {
+    using clock = std::chrono::steady_clock;
+    const std::vector<int> &held = options.test_poses.empty() ? options.poses : options.test_poses;
+    std::mt19937 random(options.seed);
+    double seconds = 0.0;
+    std::size_t pictures = 0;
+    const auto see = [&](uint32_t object, int angle) {
+        const cv::Mat picture = disturb(objects_[object].views.at(angle), options, random);
+        const clock::time_point start = clock::now();
+        Sight sight = look(object, angle, picture);
+        seconds += std::chrono::duration<double>(clock::now() - start).count();
+        pictures++;
+        return sight;
+    };
+    seen_.resize(objects_.size());
+    held_out_.resize(objects_.size());
+    for (uint32_t i = 0; i < objects_.size(); i++) {
+        if (interrupt_signal() != 0) {
+            throw Interrupted("the pictures of " + std::to_string(i) + " objects");
+        }
+        progress("looking at object " + std::to_string(i + 1) + " of " +
+                 std::to_string(objects_.size()));
+        for (uint32_t copy = 0; copy < options.copies; copy++) {
+            for (const int angle : options.poses) {
+                seen_[i].push_back(see(i, angle));
+                index(seen_[i].back());
+            }
+            for (const int angle : held) {
+                held_out_[i].push_back(see(i, angle));
+            }
+        }
+    }
+    milliseconds_ = 1000.0 * seconds / static_cast<double>(std::max<std::size_t>(pictures, 1));
+}
+
+rlvc_domain Gallery::domain() {
+    rlvc_domain domain;
+    check(rlvc_descriptors_domain(&descriptors_, &domain), "rlvc_descriptors_domain");
+    return domain;
+}
+
+const Place *Gallery::find(const void *feature) const {
+    const std::size_t bytes =
+        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors_.dimensions, descriptors_.form);
+    const auto found = places_.find(std::string(static_cast<const char *>(feature) + 4, bytes));
+    return found == places_.end() ? nullptr : &found->second;
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// What an agent can see: the percepts of all views of all objects, made once before any learning.
+#ifndef RUN_GRIDWORLD_TILED_GALLERY_H
+#define RUN_GRIDWORLD_TILED_GALLERY_H
+
+#include "pictures.h"
+
+#include "rlvc/descriptors.h"
+#include "rlvc/vision.h"
+
+#include <functional>
+#include <memory>
+
+// One picture as the agent sees it.
+struct Sight {
+    uint32_t object = 0;
+    int angle = 0;
+    std::vector<uint32_t> percept; // the record; whole words, for its alignment
+    std::vector<rlvc_point> points;
+};
+
+// Where a vector was found.
+struct Place {
+    uint32_t object;
+    int angle;
+    rlvc_point point;
+};
+
+class Gallery {
+  public:
+    // Throws Failure. Fits the metric, or loads it, and extracts every picture.
+    Gallery(const TiledOptions &options, std::vector<Object> objects,
+            const std::function<void(const std::string &)> &progress);
+
+    const std::vector<Object> &objects() const {
+        return objects_;
+    }
+
+    // The pictures of an object to learn from, and those held out.
+    const std::vector<Sight> &seen(uint32_t object) const {
+        return seen_[object];
+    }
+    const std::vector<Sight> &held_out(uint32_t object) const {
+        return held_out_[object];
+    }
+
+    // The domain of these percepts: it points into the gallery.
+    rlvc_domain domain();
+
+    // Where the vector of a feature comes from; null if from no picture to learn from.
+    const Place *find(const void *feature) const;
+
+    double tau() const {
+        return double{tau_};
+    }
+    double milliseconds() const { // to make a percept of a picture
+        return milliseconds_;
+    }
+
+  private:
+    void prepare(const TiledOptions &options);
+    void extract(const TiledOptions &options,
+                 const std::function<void(const std::string &)> &progress);
+    Sight look(uint32_t object, int angle, const cv::Mat &picture);
+    void index(const Sight &sight);
+
+    std::vector<Object> objects_;
+    std::vector<std::vector<Sight>> seen_, held_out_;
+    rlvc_vision_config config_{};
+    std::unique_ptr<rlvc_metric, void (*)(rlvc_metric *)> metric_;
+    std::unique_ptr<rlvc_extractor, void (*)(rlvc_extractor *)> extractor_;
+    rlvc_descriptors descriptors_{};
+    std::map<std::string, Place> places_; // by the bytes of the vector
+    float tau_ = 0.0f;
+    double milliseconds_ = 0.0;
+};
+
+#endif

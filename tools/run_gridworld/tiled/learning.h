@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// One run of the Tiled Gridworld.
+#ifndef RUN_GRIDWORLD_TILED_LEARNING_H
+#define RUN_GRIDWORLD_TILED_LEARNING_H
+
+#include "gallery.h"
+
+#include "../optimum.h"
+#include "../policy.h"
+
+// A test of the tree: what figure 5 shows.
+struct Test {
+    uint32_t split_class = 0, step = 0;
+    float radius = 0.0f; // in units of the percept
+    std::string name;
+    const Place *place = nullptr; // in the gallery
+};
+
+struct TiledRun {
+    uint32_t seed = 0;
+    std::vector<uint32_t> object; // of each cell; of no meaning where there is none
+    double optimal_seen = 0.0, optimal_heldout = 0.0;
+    uint32_t cells = 0, optimal_cells = 0; // those in which all that was seen is decided optimally
+    uint32_t classes = 1, depth = 0;
+    uint64_t interactions = 0;
+    std::size_t memory_bytes = 0;
+    double seconds = 0.0;                               // of learning alone
+    Policy policy;                                      // of the pictures to learn from
+    std::vector<std::vector<uint32_t>> classes_of_cell; // that its pictures to learn from fall into
+    std::vector<Test> tests;
+    std::string tree_json, tree_dot;
+};
+
+using TiledListener = std::function<void(const std::string &)>;
+
+// Throws Failure, Interrupted.
+TiledRun learn_tiled(const TiledOptions &options, const gridworld_maze &maze,
+                     const Optimum &optimum, Gallery &gallery, uint32_t seed,
+                     const TiledListener &listener);
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The command line of `run_gridworld tiled`.
+#ifndef RUN_GRIDWORLD_TILED_OPTIONS_H
+#define RUN_GRIDWORLD_TILED_OPTIONS_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct TiledOptions {
+    // The world.
+    std::string images; // a folder; empty: the built-in objects
+    std::string maze = "sutton";
+    std::vector<int> poses{0}, test_poses; // degrees, [0, 360)
+    float light = 0.0f;                    // a picture's light varies by +- this share
+    float noise = 0.0f;                    // standard deviation, in grey levels
+    float blur = 0.0f;                     // standard deviation, in pixels
+    uint32_t jpeg = 0;                     // quality; 0: not compressed
+    uint32_t copies = 8;                   // pictures of each view, if they differ at all
+
+    // Seeing.
+    uint32_t descriptor = 0; // RLVC_DESCRIPTOR_*
+    uint32_t points = 30;
+    float sigma = 0.0f;  // 0: the descriptor's default
+    float share = 0.05f; // of the other objects' pictures that exhibit a feature at tau
+    float margin = 1.8f;
+    uint32_t candidates = 64;
+    bool normalise = true;
+    std::string metric, save_metric; // files
+
+    // Learning.
+    uint8_t criterion = 0;
+    uint32_t interactions = 0, steps = 0; // 0: by the criterion
+    float gamma = 0.9f;
+    float epsilon = -1.0f; // negative: by the criterion
+    float alpha = 0.005f;
+    uint32_t classes = 0; // 0: four a cell
+    uint32_t seed = 1;
+    uint32_t runs = 1;
+    std::string json, dot;
+};
+
+// Reads the command line, of which argv[0] is "tiled". Throws Failure. False: help was asked for and
+// given.
+bool read_tiled_options(int argc, char **argv, TiledOptions &options);
+
+#endif

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "report.h"
+
+#include "rlvc/rlvc.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int report_version = 1;
+constexpr const char *action_names[GRIDWORLD_ACTIONS] = {"up", "right", "down", "left"};
+
+double shortest(float value) {
+    char text[32];
+    *std::to_chars(text, text + sizeof text - 1, value).ptr = '\0';
+    return std::strtod(text, nullptr);
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f %%", 100.0 * share);
+    return text;
+}
+
+std::string fixed(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+std::string padded(const std::string &text, std::size_t width) {
+    return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+
+std::string place_text(const Gallery &gallery, const Place *place) {
+    if (!place) {
+        return "an unknown picture";
+    }
+    return gallery.objects()[place->object].name + " at " + std::to_string(place->angle) +
+           " deg, (" + fixed(double{place->point.x}, 0) + ", " + fixed(double{place->point.y}, 0) +
+           ")";
+}
+
+Json describe_options(const TiledOptions &options) {
+    return {{"images", options.images.empty() ? Json(nullptr) : Json(options.images)},
+            {"maze", options.maze},
+            {"poses", options.poses},
+            {"test_poses", options.test_poses},
+            {"light", shortest(options.light)},
+            {"noise", shortest(options.noise)},
+            {"blur", shortest(options.blur)},
+            {"jpeg", options.jpeg},
+            {"copies", options.copies},
+            {"descriptor", rlvc_descriptor_name(options.descriptor)},
+            {"points", options.points},
+            {"sigma", shortest(options.sigma)},
+            {"share", shortest(options.share)},
+            {"margin", shortest(options.margin)},
+            {"candidates", options.candidates},
+            {"normalise", options.normalise},
+            {"criterion", options.criterion == RLVC_CRITERION_RETURNS ? "returns" : "residual"},
+            {"interactions", options.interactions},
+            {"steps", options.steps},
+            {"gamma", shortest(options.gamma)},
+            {"epsilon", shortest(options.epsilon)},
+            {"alpha", shortest(options.alpha)},
+            {"seed", options.seed}};
+}
+
+Json describe_objects(const Gallery &gallery) {
+    Json objects = Json::array();
+    for (uint32_t i = 0; i < gallery.objects().size(); i++) {
+        const Sight &first = gallery.seen(i).front();
+        Json points = Json::array();
+        for (const rlvc_point &point : first.points) {
+            points.push_back({shortest(point.x), shortest(point.y), shortest(point.response)});
+        }
+        objects.push_back({{"name", gallery.objects()[i].name},
+                           {"angle", first.angle},
+                           {"points", std::move(points)}});
+    }
+    return objects;
+}
+
+Json describe_cells(const gridworld_maze &maze, const TiledRun &run) {
+    Json cells = Json::array();
+    for (uint32_t cell = 0; cell < run.object.size(); cell++) {
+        if (maze.cells[cell] == GRIDWORLD_FREE) {
+            const CellPolicy &policy = run.policy.cells[cell];
+            cells.push_back(
+                {{"x", cell % maze.width},
+                 {"y", cell / maze.width},
+                 {"object", run.object[cell]},
+                 {"classes", run.classes_of_cell[cell]},
+                 {"action", policy.action ? Json(action_names[*policy.action]) : Json(nullptr)},
+                 {"optimal", policy.optimal}});
+        }
+    }
+    return cells;
+}
+
+Json describe_run(const gridworld_maze &maze, const TiledRun &run) {
+    Json tests = Json::array();
+    for (const Test &test : run.tests) {
+        Json one{{"name", test.name}, {"class", test.split_class}, {"step", test.step}};
+        one["radius"] = shortest(test.radius);
+        one["object"] = test.place ? Json(test.place->object) : Json(nullptr);
+        one["angle"] = test.place ? Json(test.place->angle) : Json(nullptr);
+        one["x"] = test.place ? Json(shortest(test.place->point.x)) : Json(nullptr);
+        one["y"] = test.place ? Json(shortest(test.place->point.y)) : Json(nullptr);
+        tests.push_back(std::move(one));
+    }
+    return {{"seed", run.seed},
+            {"optimal_seen", run.optimal_seen},
+            {"optimal_heldout", run.optimal_heldout},
+            {"cells", run.cells},
+            {"optimal_cells", run.optimal_cells},
+            {"classes", run.classes},
+            {"depth", run.depth},
+            {"interactions", run.interactions},
+            {"memory_bytes", run.memory_bytes},
+            {"seconds", run.seconds},
+            {"cell", describe_cells(maze, run)},
+            {"tests", std::move(tests)},
+            {"tree", Json::parse(run.tree_json)}};
+}
+
+} // namespace
+
+std::string describe_classes(const gridworld_maze &maze, const Gallery &gallery,
+                             const TiledRun &run) {
+    std::map<uint32_t, std::string> members;
+    for (uint32_t cell = 0; cell < run.object.size(); cell++) {
+        if (maze.cells[cell] == GRIDWORLD_FREE) {
+            for (const uint32_t class_id : run.classes_of_cell[cell]) {
+                members[class_id] += " " + gallery.objects()[run.object[cell]].name;
+            }
+        }
+    }
+    std::string text = "Objects by class\n";
+    for (const auto &one : members) {
+        text += padded(std::to_string(one.first), 5) + " " + one.second + "\n";
+    }
+    return text;
+}
+
+std::string describe_tests(const Gallery &gallery, const TiledRun &run) {
+    std::string text = "Tests, in the order in which they were found\n";
+    for (std::size_t j = 0; j < run.tests.size(); j++) {
+        text += padded(std::to_string(j), 5) + "  class " +
+                padded(std::to_string(run.tests[j].split_class), 3) + "  " + run.tests[j].name +
+                ": " + place_text(gallery, run.tests[j].place) + "\n";
+    }
+    return text;
+}
+
+std::string runs_table_header() {
+    return "\n      seed  optimal seen  held out  cells optimal  classes  depth  seconds\n";
+}
+
+std::string runs_table_row(const TiledRun &run) {
+    return padded(std::to_string(run.seed), 10) + padded(percent(run.optimal_seen), 14) +
+           padded(percent(run.optimal_heldout), 10) +
+           padded(std::to_string(run.optimal_cells) + " of " + std::to_string(run.cells), 15) +
+           padded(std::to_string(run.classes), 9) + padded(std::to_string(run.depth), 7) +
+           padded(fixed(run.seconds, 2), 9) + "\n";
+}
+
+std::string runs_table_end(const std::vector<TiledRun> &runs) {
+    double seen = 0.0, held = 0.0, seconds = 0.0, classes = 0.0;
+    uint32_t most = 0, whole = 0;
+    for (const TiledRun &run : runs) {
+        seen += run.optimal_seen;
+        held += run.optimal_heldout;
+        seconds += run.seconds;
+        classes += run.classes;
+        most = std::max(most, run.classes);
+        whole += run.optimal_cells == run.cells;
+    }
+    const double n = static_cast<double>(runs.size());
+    return "      mean" + padded(percent(seen / n), 14) + padded(percent(held / n), 10) +
+           padded("", 15) + padded(fixed(classes / n, 1), 9) + padded("", 7) +
+           padded(fixed(seconds / n, 2), 9) + "\n\n  all cells optimal in " +
+           std::to_string(whole) + " of " + std::to_string(runs.size()) + " runs; at most " +
+           std::to_string(most) + " classes\n";
+}
+
+std::string make_dot(const Gallery &gallery, const TiledRun &run) {
+    std::string dot = run.tree_dot;
+    for (const Test &test : run.tests) {
+        const std::string place = place_text(gallery, test.place);
+        const std::size_t at = dot.find(test.name);
+        if (at != std::string::npos) {
+            dot.replace(at, test.name.size(), place);
+        }
+    }
+    return dot;
+}
+
+std::string make_tiled_report(const TiledOptions &options, const std::vector<std::string> &rows,
+                              const gridworld_maze &maze, const Gallery &gallery,
+                              const std::vector<TiledRun> &runs) {
+    double seen = 0.0, held = 0.0;
+    for (const TiledRun &run : runs) {
+        seen += run.optimal_seen / static_cast<double>(runs.size());
+        held += run.optimal_heldout / static_cast<double>(runs.size());
+    }
+    Json json{{"version", report_version},
+              {"kind", "run_gridworld tiled"},
+              {"program", std::string("run_gridworld ") + rlvc_version()},
+              {"options", describe_options(options)},
+              {"maze", rows},
+              {"tau", gallery.tau()},
+              {"milliseconds_a_picture", gallery.milliseconds()},
+              {"optimal_seen", seen},
+              {"optimal_heldout", held},
+              {"objects", describe_objects(gallery)},
+              {"runs", Json::array()}};
+    for (const TiledRun &run : runs) {
+        json["runs"].push_back(describe_run(maze, run));
+    }
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
