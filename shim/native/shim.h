@@ -8,6 +8,7 @@
 #define RLVC_SHIM_H
 
 #include "gridworld.h"
+#include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 
 /* An entry of a table that ends with a null name: the size of a struct ("rlvc_choice"), or where a

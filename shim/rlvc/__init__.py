@@ -9,7 +9,7 @@ learning".
 from ._version import __version__
 from .agent import CHOICE, Agent, Choice, Prediction, Progress, Split, Statistics
 from .config import Config
-from .domain import Bits, Domain
+from .domain import Bits, Descriptors, Domain
 from .encode import Encoder
 from .errors import Error
 from .learning import Record, Run, learn
@@ -21,6 +21,7 @@ __all__ = [
     "Bits",
     "Choice",
     "Config",
+    "Descriptors",
     "Domain",
     "Encoder",
     "Error",

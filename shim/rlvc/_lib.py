@@ -75,6 +75,21 @@ class Domain(c.Structure):
     ]
 
 
+class Descriptors(c.Structure):
+    """``rlvc_descriptors``."""
+
+    _fields_ = [
+        ("points", c.c_uint32),
+        ("dimensions", c.c_uint32),
+        ("candidates", c.c_uint32),
+        ("draws", c.c_uint32),
+        ("radius", c.c_float),
+        ("margin", c.c_float),
+        ("form", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
+    ]
+
+
 class Config(c.Structure):
     """``rlvc_config``."""
 
@@ -241,6 +256,7 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_sample": Sample,
     "rlvc_samples": Samples,
     "rlvc_domain": Domain,
+    "rlvc_descriptors": Descriptors,
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
@@ -287,11 +303,12 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_save": (c.c_int, [_P, _P]),
     "rlvc_load": (c.c_int, [_P, _P, _P, c.c_size_t, _P, _P]),
     "rlvc_snapshot_peek": (c.c_int, [_P, _P]),
-    # descriptors.h, log.h: not used yet
+    # descriptors.h
     "rlvc_descriptors_default": (c.c_int, [_P, _U32, _U32, _U32, c.c_float]),
     "rlvc_descriptors_domain": (c.c_int, [_P, _P]),
     "rlvc_descriptors_radius": (c.c_float, [_P]),
     "rlvc_descriptors_nearest": (c.c_int, [_P, _P, _P, _P, _P]),
+    # log.h: not used here
     "rlvc_log_open": (c.c_int, [_P, _U32, _U32, _P, _P]),
     "rlvc_log_begin": (c.c_int, [_P, _P]),
     "rlvc_log_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import abc
 import ctypes
+import sys
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -281,6 +282,143 @@ class Bits(Domain):
         """The library's own domain, which calls no Python."""
         native = _lib.Domain()
         _lib.call.rlvc_bits_domain(self.bits, ctypes.byref(native))
+        return native
+
+
+class Descriptors(Domain):
+    """Percepts that are the vectors found at a picture's interest points (sections 3 and 6.2).
+
+    A feature is a vector with a radius; a percept exhibits it if the nearest of its vectors is at most
+    the radius away.
+
+    Parameters
+    ----------
+    points : int
+        The most vectors of a percept, [1, 1000].
+    dimensions : int
+        Numbers of a vector, [1, 256].
+    radius : float
+        tau, in units of the percept's numbers, (0, 1e15].
+    form : {"float", "int8"}
+        How the numbers are kept: as float32 or as int8.
+    candidates : int
+        The most features looked at for one class, [1, 65535].
+    draws : int
+        A candidate is the best of so many vectors by the margin rule, [1, 64].
+    margin : float
+        m, [1, 16]: each feature has a radius of its own in [tau / m, m tau]; 1: all have tau.
+
+    Raises
+    ------
+    ConfigError
+        A parameter is out of range.
+
+    Notes
+    -----
+    A percept is given as an array of float32 or int8 [n, dimensions], n at most ``points``, or as its
+    record, which :meth:`pack` makes; arrays of percepts are arrays of records, uint8
+    [n, percept_bytes]. Source: ``core/include/rlvc/descriptors.h``.
+    """
+
+    def __init__(
+        self,
+        points: int,
+        dimensions: int,
+        radius: float,
+        form: Literal["float", "int8"] = "float",
+        candidates: int = 64,
+        draws: int = 4,
+        margin: float = 1.8,
+    ) -> None:
+        self._parameters = (points, dimensions, radius, form, candidates, draws, margin)
+        if form not in ("float", "int8"):
+            raise ConfigError(f"form: {form!r} is none of float, int8")
+        self._made = _lib.Descriptors(
+            points, dimensions, candidates, draws, radius, margin, int(form == "int8")
+        )
+        self._native = _lib.Domain()
+        status = _lib.call.rlvc_descriptors_domain(
+            ctypes.byref(self._made), ctypes.byref(self._native)
+        )
+        if status != _lib.OK:
+            raise ConfigError(f"descriptors: {_lib.status_text(status)}")
+        self.vector_dtype = np.dtype(np.int8 if form == "int8" else np.float32)
+        self.points, self.dimensions = points, dimensions
+        vector = (self.vector_dtype, (dimensions,))
+        padding = self._native.feature_bytes - 4 - self.vector_dtype.itemsize * dimensions
+        feature = [("radius", np.float32), ("vector", *vector), ("padding", np.uint8, (padding,))]
+        super().__init__(
+            np.uint8, (self._native.percept_bytes,), feature, self._native.features_max
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the parameters."""
+        return type(self), self._parameters
+
+    def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
+        """Whether a percept's record has a vector near enough to the feature's."""
+        present = ctypes.c_uint8()
+        record = np.ascontiguousarray(feature).tobytes()
+        if self._native.exhibits(self._native.ctx, self.pack(percept), record, present):
+            raise PerceptError(f"a percept of more than {self.points} vectors")
+        return bool(present.value)
+
+    def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """List the features that the library looks at for such a class; percepts are records."""
+        records = self.pack_many(percepts)
+        pairs = np.zeros((len(records), 2), np.uint32)
+        pairs[:, 1] = np.arange(len(records))
+        samples = _lib.Samples(
+            records.ctypes.data, pairs.ctypes.data, self.percept_bytes, len(records)
+        )
+        found = np.zeros(_lib.DETECT_FEATURES, self.feature_dtype)
+        written = ctypes.c_uint32()
+        if self._native.candidates(
+            self._native.ctx, samples, 0, len(found), found.ctypes.data, written
+        ):
+            raise PerceptError(f"a percept of more than {self.points} vectors")
+        return found[: written.value]
+
+    def name(self, feature: Any) -> str:
+        """Name a feature as the library does."""
+        text = ctypes.create_string_buffer(_lib.NAME_BYTES)
+        record = np.ascontiguousarray(feature).tobytes()
+        address = ctypes.cast(text, ctypes.c_void_p)
+        self._native.name(self._native.ctx, record, address, _lib.NAME_BYTES)
+        return text.value.decode()
+
+    def pack(self, percept: Percept) -> bytes:
+        """Give the record of a percept: also from an array [n, dimensions] of its vectors."""
+        if isinstance(percept, np.ndarray) and percept.ndim == 2:
+            if percept.dtype != self.vector_dtype or percept.shape[1] != self.dimensions:
+                raise PerceptError(
+                    f"a percept of {percept.dtype}{list(percept.shape)}, not "
+                    f"{self.vector_dtype}['n', {self.dimensions}]"
+                )
+            if len(percept) > self.points:
+                raise PerceptError(
+                    f"a percept of {len(percept)} vectors, not {self.points} at most"
+                )
+            if not np.isfinite(percept).all():
+                raise PerceptError("a percept has a number in it that is not finite")
+            record = len(percept).to_bytes(4, sys.byteorder) + percept.tobytes()
+            return record.ljust(self.percept_bytes, b"\0")
+        record = super().pack(percept)
+        if int.from_bytes(record[:4], sys.byteorder) > self.points:
+            raise PerceptError(f"a percept of more than {self.points} vectors")
+        return record
+
+    def is_one(self, percept: Any) -> bool:
+        """Whether this is one percept: vectors or a record, and not an array of records."""
+        return isinstance(percept, bytes) or not (
+            np.ndim(percept) == 2 and getattr(percept, "dtype", None) == _UINT8
+        )
+
+    def native(self, guard: Guard) -> _lib.Domain:
+        """The library's own domain, which calls no Python."""
+        native = _lib.Domain()
+        _lib.call.rlvc_descriptors_domain(ctypes.byref(self._made), ctypes.byref(native))
+        native._keeps = self._made
         return native
 
 
