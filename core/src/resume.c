@@ -160,11 +160,11 @@ static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_mark *mark)
 
 static rlvc_status redo_search(rlvc_agent *agent, const rlvc_mark *mark) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_status status = redo(agent, RLVC_PHASE_GROUP, NULL);
-    if (status != RLVC_OK || !learner->searching)
-        return status;
     rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
     rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    (void)redo(agent, RLVC_PHASE_GROUP, NULL);
+    if (!learner->searching)
+        return RLVC_OK;
     rlvc_search_begin(&learner->work.search, &searching,
                       agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0));
     return advance_to(agent, mark);

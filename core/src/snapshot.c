@@ -180,6 +180,16 @@ static void pass_agent(rlvc_stream *s, rlvc_agent *agent) {
 
 /* ------------------------------------------------------------------ sizes */
 
+/* The most that a snapshot can take. 64 bits hold it for every config. */
+static uint64_t largest(const rlvc_config *config, const rlvc_domain *domain) {
+    uint64_t classes = config->classes, unit = RLVC_STORE_UNIT;
+    uint64_t size = RLVC_SNAPSHOT_FIXED_BYTES;
+    size += ((uint64_t)config->capacity + 1u) * (domain->percept_bytes + 8u);
+    size += (classes - 1u) * (domain->feature_bytes + 28u);
+    size += classes * 8u + classes * config->actions * 12u;
+    return (size + unit - 1u) / unit * unit;
+}
+
 rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
                                uint32_t *bytes) {
     if (!bytes)
@@ -188,12 +198,7 @@ rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *dom
     rlvc_status status = rlvc_config_check(config, domain, NULL);
     if (status != RLVC_OK)
         return status;
-    uint64_t classes = config->classes, unit = RLVC_STORE_UNIT;
-    uint64_t size = RLVC_SNAPSHOT_FIXED_BYTES;
-    size += ((uint64_t)config->capacity + 1u) * (domain->percept_bytes + 8u);
-    size += (classes - 1u) * (domain->feature_bytes + 28u);
-    size += classes * 8u + classes * config->actions * 12u;
-    size = (size + unit - 1u) / unit * unit;
+    uint64_t size = largest(config, domain);
     if (size > RLVC_SLOT_BYTES_MAX)
         return RLVC_E_MEMORY;
     *bytes = (uint32_t)size;
@@ -201,7 +206,7 @@ rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *dom
 }
 
 /* @param least bytes that a slot must hold */
-static rlvc_status check_store(const rlvc_store *store, uint32_t least) {
+static rlvc_status check_store(const rlvc_store *store, uint64_t least) {
     if (!store || !store->read || !store->write)
         return RLVC_E_NULL;
     return store->slot_bytes >= least && store->slot_bytes <= RLVC_SLOT_BYTES_MAX &&
@@ -236,10 +241,7 @@ rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store) {
         return RLVC_E_NULL;
     if (agent->busy)
         return RLVC_E_REENTERED;
-    uint32_t least = 0;
-    rlvc_status status = rlvc_snapshot_size(&agent->config, &agent->domain, &least);
-    if (status == RLVC_OK)
-        status = check_store(store, least);
+    rlvc_status status = check_store(store, largest(&agent->config, &agent->domain));
     if (status != RLVC_OK)
         return status;
     agent->busy = 1;

@@ -472,6 +472,12 @@ static void test_unsound_learner(void **state) {
                          RLVC_E_DAMAGED);
         if (phase != 1)
             assert_int_equal(load_forged(&store, AT_SLOTS + 5u, 0xffff, 2), RLVC_E_DAMAGED);
+        const rlvc_solver *solver = &p.agent->learner.work.solver;
+        if (phase == 4) /* a transition before the pair's first */
+            assert_int_equal(load_forged(&store, learner + 30u + 12u, 0, 4),
+                             p.agent->values.first[4u * solver->class_id + solver->action] > 0
+                                 ? RLVC_E_DAMAGED
+                                 : RLVC_OK);
         for (uint32_t word = 0; word < 10; word++) {
             rlvc_status status = load_forged(&store, learner + 30u + 4u * word, NOT_A_NUMBER, 4);
             assert_true(status == RLVC_E_DAMAGED || (phase == 4 && (word == 3 || word == 9)));
@@ -479,6 +485,40 @@ static void test_unsound_learner(void **state) {
     }
     const uint32_t wanted = 1u << 1 | 1u << 3 | 1u << 4 | 1u << 5 | 1u << 6;
     assert_int_equal(phases & wanted, wanted);
+}
+
+/* A phase that a config does not have. */
+static void test_unsound_phases(void **state) {
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        const kind k = {(uint8_t)(i & 1), (uint8_t)(i >> 1), BATCH};
+        prepare(&k);
+        rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
+        assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
+        assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
+        const uint32_t learner = AT_SLOTS + 4u + 8u + 12u * 4u;
+        for (uint32_t phase = 1; phase < 9; phase++)
+            assert_int_equal(load_forged(&store, learner, phase, 1), RLVC_E_DAMAGED);
+    }
+}
+
+/* A learning step that has nothing to learn from may be resumed too. */
+static void test_resume_without_data(void **state) {
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        const kind k = {(uint8_t)(i & 1), (uint8_t)(i >> 1), BATCH};
+        rlvc_progress progress;
+        prepare(&k);
+        rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
+        do {
+            assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+            assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
+            assert_int_equal(load(&other, &store), RLVC_OK);
+            content_of(&p, &c.older);
+            content_of(&other, &c.newer);
+            assert_true(same_content(&c.older, &c.newer));
+        } while (!progress.done);
+    }
 }
 
 /* ------------------------------------------------------------------ refusals */
@@ -723,6 +763,8 @@ int main(void) {
         cmocka_unit_test(test_forgery),
         cmocka_unit_test(test_unsound_fields),
         cmocka_unit_test(test_unsound_learner),
+        cmocka_unit_test(test_unsound_phases),
+        cmocka_unit_test(test_resume_without_data),
         cmocka_unit_test(test_versions_and_mismatches),
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_sizes),
