@@ -18,6 +18,9 @@ PLACES = [
      r"#define RLVC_VERSION_PATCH (\d+)$"),
     ("shim/rlvc/_version.py", r'^__version__ = "(.*)"$'),
     ("CHANGELOG.md", r"^## \[(\d[^\]]*)\]"),
+    ("library.json", r'^    "version": "(.*)"'),
+    ("core/arduino/library.properties", r"^version=(.*)"),
+    ("core/esp-idf/idf_component.yml", r'^version: "(.*)"'),
 ]
 
 
