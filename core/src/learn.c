@@ -309,7 +309,8 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     }
     agent->busy = 0;
     memset(progress, 0, sizeof *progress);
-    progress->work = work < UINT32_MAX ? (uint32_t)work : UINT32_MAX;
+    /* All ones where it does not fit: nobody budgets a step of so much work. */
+    progress->work = (uint32_t)work | (0u - (uint32_t)(work > UINT32_MAX));
     progress->rounds = agent->learner.rounds;
     progress->splits = agent->learner.splits;
     progress->done = agent->learner.phase == RLVC_PHASE_IDLE;

@@ -111,7 +111,7 @@ static int slot_is_sound(const rlvc_replay *replay, uint32_t position, uint32_t 
     if (!(replay->flags[slot] & RLVC_SLOT_STORED))
         return (last && replay->open) ||
                (position > 0 && rlvc_replay_linked(replay, rlvc_replay_slot(replay, position - 1)));
-    if (replay->action[slot] >= actions)
+    if ((last && replay->open) || replay->action[slot] >= actions)
         return 0;
     float reward = replay->reward[slot];
     if (!(reward >= -RLVC_REWARD_MAX && reward <= RLVC_REWARD_MAX))
@@ -129,7 +129,5 @@ int rlvc_replay_check(const rlvc_replay *replay, uint32_t actions, uint32_t clas
             return 0;
         stored += has_interaction(replay, position) ? 1u : 0u;
     }
-    if (replay->open && has_interaction(replay, replay->count - 1))
-        return 0;
     return stored == replay->stored;
 }
