@@ -97,7 +97,21 @@ def _box_part(space: Any, path: tuple[Any, ...], samples: list[Any], most: int) 
     return _Part(path, names, columns, lambda value: np.shape(value) == space.shape)
 
 
+class Numbers:
+    """Arrays of numbers of one shape, encoded as a Box is; for logs, where Gymnasium may be missing.
+
+    Parameters
+    ----------
+    shape : tuple of int
+    """
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        self.shape = shape
+
+
 def _parts(space: Any, path: tuple[Any, ...], samples: list[Any], most: int) -> list[_Part]:
+    if isinstance(space, Numbers):
+        return [_box_part(space, path, samples, most)]
     from gymnasium import spaces
 
     label = _prefix(path)
@@ -158,6 +172,8 @@ def needs_samples(space: Any) -> bool:
     -------
     bool
     """
+    if isinstance(space, Numbers):
+        return True
     from gymnasium import spaces
 
     if isinstance(space, spaces.Dict):
@@ -172,7 +188,7 @@ class Encoder:
 
     Parameters
     ----------
-    space : gymnasium.Space
+    space : gymnasium.Space or Numbers
         Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of such.
     samples : sequence of observations
         From which a Box gets its thresholds.

@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from .agent import CHOICE, Agent
 from .domain import Bits
-from .encode import Encoder, needs_samples
+from .encode import Encoder, Numbers, needs_samples
 from .errors import ConfigError, LogError, PerceptError
 from .learning import Record, Run, default_config
 
@@ -431,15 +431,11 @@ def read(log: Any, columns: Sequence[str] | None = None) -> Log:
     return from_minari(log)
 
 
-def _space_of(log: Log) -> Any:
-    from gymnasium import spaces
-
+def _space_of(log: Log) -> Numbers:
     values = np.asarray(log.before)
-    if values.dtype == np.bool_:
-        return spaces.MultiBinary(values.shape[1:] or (1,))
-    if values.dtype.kind not in "fiub":
+    if values.dtype.kind not in "fiu":
         raise LogError(f"{log.where}: observations: {values.dtype}: give the space they are of")
-    return spaces.Box(-np.inf, np.inf, values.shape[1:], np.float64)
+    return Numbers(values.shape[1:])
 
 
 def _in_words(name: str, columns: list[str]) -> str:
