@@ -341,7 +341,8 @@ static void test_classification(void **state) {
             float value = -1.0f;
             assert_int_equal(rlvc_predict(p.agent, &percept, &class_id, NULL), RLVC_OK);
             assert_int_equal(rlvc_value(p.agent, class_id, &value, NULL), RLVC_OK);
-            assert_float_equal(value, (n & 2u) || (n & 20u) == 20u ? 1.0f : 0.0f, 0.0f);
+            float reward = (n & 2u) || (n & 20u) == 20u ? 1.0f : 0.0f;
+            assert_float_equal(value, reward, 0.0f);
         }
     }
 }

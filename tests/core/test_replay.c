@@ -87,6 +87,8 @@ static void fill(void) {
     const uint32_t operations[] = {BEGIN, GO_ON, TERMINATE, BEGIN, TRUNCATE, BEGIN, GO_ON};
     for (size_t i = 0; i < sizeof operations / sizeof operations[0]; i++)
         operate(operations[i], (uint32_t)i);
+    replay.action[5] = 0; /* of the current percept: not set yet, or it would be found for that */
+    replay.reward[5] = 0.0f;
 }
 
 /* What to write where, to break one invariant. */

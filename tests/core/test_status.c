@@ -13,9 +13,10 @@
 
 static void test_each_status_has_its_sentence(void **state) {
     (void)state;
-    const rlvc_status statuses[] = {RLVC_OK,         RLVC_E_NULL,     RLVC_E_CONFIG, RLVC_E_MEMORY,
-                                    RLVC_E_ORDER,    RLVC_E_RANGE,    RLVC_E_REWARD, RLVC_E_BUSY,
-                                    RLVC_E_CALLBACK, RLVC_E_REENTERED};
+    const rlvc_status statuses[] = {
+        RLVC_OK,      RLVC_E_NULL,   RLVC_E_CONFIG,  RLVC_E_MEMORY,   RLVC_E_ORDER,
+        RLVC_E_RANGE, RLVC_E_REWARD, RLVC_E_BUSY,    RLVC_E_CALLBACK, RLVC_E_REENTERED,
+        RLVC_E_STORE, RLVC_E_EMPTY,  RLVC_E_DAMAGED, RLVC_E_VERSION,  RLVC_E_MISMATCH};
     const int count = (int)(sizeof statuses / sizeof statuses[0]);
     for (int i = 0; i < count; i++) {
         assert_int_equal(statuses[i], -i);
@@ -23,6 +24,8 @@ static void test_each_status_has_its_sentence(void **state) {
         for (int j = 0; j < i; j++)
             assert_string_not_equal(rlvc_status_text(statuses[i]), rlvc_status_text(statuses[j]));
     }
+    /* All of them: the next number is none. */
+    assert_string_equal(rlvc_status_text((rlvc_status)-count), "not a status of rlvc");
 }
 
 static void test_no_status(void **state) {
