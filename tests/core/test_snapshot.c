@@ -487,6 +487,30 @@ static void test_unsound_learner(void **state) {
     assert_int_equal(phases & wanted, wanted);
 }
 
+/* A policy that is being made greedy is resumed too; slices rarely end there. */
+static void test_resume_improving(void **state) {
+    (void)state;
+    uint32_t first[9] = {0}, word[10], again[10];
+    rlvc_solver solver, resumed;
+    rlvc_solving solving = {NULL, 2, 10, 0.9f, 0.01f};
+    rlvc_values values;
+    memset(&values, 0, sizeof values);
+    values.actions = 4;
+    values.first = first;
+    rlvc_solver_begin(&solver, RLVC_SOLVER_POLICY_ITERATION);
+    solver.class_id = 1;
+    solver.changed = 1;
+    rlvc_solver_mark(&solver, word);
+    rlvc_solver_begin(&resumed, RLVC_SOLVER_POLICY_ITERATION);
+    assert_true(rlvc_solver_restore(&resumed, &solving, &values, word));
+    rlvc_solver_mark(&resumed, again);
+    assert_memory_equal(word, again, sizeof word);
+    assert_int_equal(resumed.phase, solver.phase);
+    assert_int_equal(resumed.changed, 1);
+    rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
+    assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
+}
+
 /* A phase that a config does not have. */
 static void test_unsound_phases(void **state) {
     (void)state;
@@ -764,6 +788,7 @@ int main(void) {
         cmocka_unit_test(test_unsound_fields),
         cmocka_unit_test(test_unsound_learner),
         cmocka_unit_test(test_unsound_phases),
+        cmocka_unit_test(test_resume_improving),
         cmocka_unit_test(test_resume_without_data),
         cmocka_unit_test(test_versions_and_mismatches),
         cmocka_unit_test(test_arguments),
