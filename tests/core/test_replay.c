@@ -127,11 +127,21 @@ static void test_check_finds_damage(void **state) {
     }
 }
 
+/* The last interaction of a ring without a current percept has lost its s'. */
+static void test_check_finds_a_missing_percept(void **state) {
+    (void)state;
+    fill();
+    operate(TERMINATE, 7);
+    replay.flags[5] = RLVC_SLOT_STORED;
+    assert_false(rlvc_replay_check(&replay, HISTORY_ACTIONS, 1));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_short_history),
         cmocka_unit_test(test_long_histories),
         cmocka_unit_test(test_check_finds_damage),
+        cmocka_unit_test(test_check_finds_a_missing_percept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
