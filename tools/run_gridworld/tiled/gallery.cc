@@ -4,7 +4,8 @@
 #include "../check.h"
 #include "../interrupt.h"
 
-#include <chrono>
+#include <algorithm>
+#include <ctime>
 
 namespace {
 
@@ -144,16 +145,15 @@ void Gallery::index(const Sight &sight) {
 
 void Gallery::extract(const TiledOptions &options,
                       const std::function<void(const std::string &)> &progress) {
-    using clock = std::chrono::steady_clock;
     const std::vector<int> &held = options.test_poses.empty() ? options.poses : options.test_poses;
     std::mt19937 random(options.seed);
     double seconds = 0.0;
     std::size_t pictures = 0;
     const auto see = [&](uint32_t object, int angle) {
         const cv::Mat picture = disturb(objects_[object].views.at(angle), options, random);
-        const clock::time_point start = clock::now();
+        const std::clock_t start = std::clock();
         Sight sight = look(object, angle, picture);
-        seconds += std::chrono::duration<double>(clock::now() - start).count();
+        seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
         pictures++;
         return sight;
     };

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: MIT
+"""run_gridworld tiled and the camera example, on rendered objects and on pictures made here.
+
+RLVC_COIL100 names a folder of COIL-100 photographs for the tests that want them."""
+
+import json
+import os
+import subprocess
+
+import numpy
+import pytest
+
+PROGRAM = os.environ["RLVC_RUN_GRIDWORLD"]
+CAMERA = os.environ.get("RLVC_CAMERA")
+COIL100 = os.environ.get("RLVC_COIL100")
+
+
+def run(*arguments, program=PROGRAM):
+    return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True,
+                          errors="replace", timeout=500)
+
+
+def tiled(*arguments):
+    return run("tiled", *arguments)
+
+
+LEFT_OUT = "built without vision" in tiled("--maze", "small", "--interactions", 10).stderr
+
+
+@pytest.fixture(autouse=True)
+def vision(request):
+    if LEFT_OUT and request.node.name != "test_left_out":
+        pytest.skip("built without vision")
+
+
+@pytest.mark.skipif(not LEFT_OUT, reason="built with vision")
+def test_left_out():
+    result = tiled("--help")
+    assert result.returncode == 2
+    assert "libopencv-dev" in result.stderr
+
+
+def report(tmp_path, *arguments):
+    file = tmp_path / "report.json"
+    result = tiled(*arguments, "--json", file)
+    assert result.returncode == 0, result.stderr
+    return json.loads(file.read_text())
+
+
+def picture(number, shift=0, size=(64, 64), channels=3):
+    """Blocks of colour: few points to find would be none to learn from."""
+    random = numpy.random.default_rng(number)
+    blocks = random.integers(0, 255, (12, 12, channels), dtype=numpy.uint8)
+    large = numpy.kron(blocks, numpy.ones((8, 8, 1), dtype=numpy.uint8))
+    return large[shift:shift + size[0], shift:shift + size[1]]
+
+
+def write(path, pixels):
+    """Binary PPM or PGM."""
+    height, width, channels = pixels.shape
+    path.write_bytes(b"P%d %d %d 255\n" % (6 if channels == 3 else 5, width, height)
+                     + pixels.tobytes())
+
+
+@pytest.fixture
+def folder(tmp_path):
+    made = tmp_path / "pictures"
+    made.mkdir()
+    for i in range(10):
+        write(made / f"a{i}.ppm", picture(i))
+    return made
+
+
+@pytest.mark.parametrize("descriptor", ["invariants", "sqrt-invariants", "sift-upright", "sift",
+                                        "orb"])
+def test_fixed_pictures(tmp_path, descriptor):
+    made = report(tmp_path, "--maze", "small", "--interactions", 800, "--descriptor", descriptor)
+    assert made["optimal_seen"] == made["optimal_heldout"] == 1.0
+    assert made["runs"][0]["optimal_cells"] == made["runs"][0]["cells"] == 10
+    assert made["runs"][0]["classes"] <= 10
+
+
+def test_returns(tmp_path):
+    made = report(tmp_path, "--maze", "small", "--criterion", "returns", "--interactions", 1000,
+                  "--steps", 8, "--descriptor", "invariants")
+    assert made["optimal_seen"] == 1.0
+
+
+def test_poses_never_seen(tmp_path):
+    """Bar: of the rendered objects, at a size that continuous integration can afford."""
+    made = report(tmp_path, "--maze", "small", "--poses", "0,20,-20", "--test-poses", "10,-10",
+                  "--noise", 3, "--light", 0.05, "--interactions", 1500, "--runs", 3)
+    assert made["optimal_seen"] >= 0.99
+    assert made["optimal_heldout"] >= 0.97
+    assert max(one["classes"] for one in made["runs"]) <= 15
+
+
+def test_report_and_tree(tmp_path):
+    dot = tmp_path / "tree.dot"
+    made = report(tmp_path, "--maze", "small", "--interactions", 800, "--dot", dot)
+    assert "object" in dot.read_text() and "digraph" in dot.read_text()
+    assert made["kind"] == "run_gridworld tiled"
+    assert all(one["points"] for one in made["objects"])
+    once = made["runs"][0]
+    assert len(once["tests"]) == once["classes"] - 1
+    for test in once["tests"]:  # a feature is a point of some object
+        points = made["objects"][test["object"]]["points"]
+        assert [test["x"], test["y"]] in [point[:2] for point in points]
+    assert {cell["object"] for cell in once["cell"]} == set(range(10))
+
+
+def test_same_seed_same_run(tmp_path):
+    arguments = ("--maze", "small", "--noise", 3, "--copies", 2, "--interactions", 500)
+    one, other = (report(tmp_path, *arguments) for _ in range(2))
+    for made in one, other:
+        del made["milliseconds_a_picture"], made["runs"][0]["seconds"]
+    assert one == other
+
+
+def test_a_file_an_object(tmp_path, folder):
+    made = report(tmp_path, "--maze", "small", "--images", folder, "--interactions", 800)
+    assert made["optimal_seen"] == 1.0
+    assert [one["name"] for one in made["objects"]] == [f"a{i}" for i in range(10)]
+
+
+def test_a_picture_without_a_point_is_legal(tmp_path, folder):
+    write(folder / "a3.ppm", numpy.full((64, 64, 3), 9, numpy.uint8))
+    made = report(tmp_path, "--maze", "small", "--images", folder, "--interactions", 1500)
+    assert made["objects"][3]["points"] == []
+    assert made["optimal_seen"] == 1.0
+
+
+def test_metric_is_kept(tmp_path, folder):
+    metric = tmp_path / "metric.json"
+    arguments = ("--maze", "small", "--images", folder, "--interactions", 100)
+    assert tiled(*arguments, "--save-metric", metric).returncode == 0
+    assert tiled(*arguments, "--metric", metric).returncode == 0
+    refused = tiled(*arguments, "--metric", metric, "--descriptor", "orb")
+    assert refused.returncode == 2
+    assert "sift-upright" in refused.stderr and "orb" in refused.stderr
+
+
+def spoil(folder, how):
+    if how == "not a picture":
+        (folder / "a5.ppm").write_text("hello")
+    elif how == "empty file":
+        (folder / "a5.ppm").write_bytes(b"")
+    elif how == "grey among colour":
+        write(folder / "a5.ppm", picture(5, channels=1))
+    elif how == "among pictures of 64 x 64":
+        write(folder / "a5.ppm", picture(5, size=(63, 64)))
+    elif how == "8 bits":
+        (folder / "a5.ppm").write_bytes(b"P6 64 64 65535\n" + bytes(64 * 64 * 6))
+    elif how == "only 9 objects":
+        (folder / "a5.ppm").unlink()
+    elif how == "no picture":
+        for file in folder.iterdir():
+            file.unlink()
+    elif how == "cannot read":
+        for file in folder.iterdir():
+            file.unlink()
+        folder.rmdir()
+
+
+@pytest.mark.parametrize("how", ["not a picture", "empty file", "grey among colour",
+                                 "among pictures of 64 x 64", "8 bits", "only 9 objects",
+                                 "no picture", "cannot read"])
+def test_bad_pictures(tmp_path, folder, how):
+    spoil(folder, how)
+    kept = tmp_path / "report.json"
+    kept.write_text("as it was")
+    result = tiled("--maze", "small", "--images", folder, "--interactions", 100, "--json", kept)
+    assert result.returncode == 2
+    assert how in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+    assert kept.read_text() == "as it was"
+    assert [file.name for file in tmp_path.iterdir() if "report" in file.name] == ["report.json"]
+
+
+@pytest.mark.parametrize("arguments", [("--poses", "0,x"), ("--poses", ""), ("--jpeg", "0"),
+                                       ("--descriptor", "eyes"), ("--criterion", "hope"),
+                                       ("--maze", "nowhere"), ("--metric", "nowhere"),
+                                       ("--steps", "30", "--interactions", "20"), ("--huh",)])
+def test_bad_options(arguments):
+    result = tiled("--interactions", "10", *arguments) if "--steps" not in arguments \
+        else tiled(*arguments)
+    assert result.returncode == 2
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_one_pixel(tmp_path):
+    for i in range(10):
+        write(tmp_path / f"a{i}.ppm", picture(i, size=(1, 1)))
+    result = tiled("--maze", "small", "--images", tmp_path, "--interactions", 10)
+    assert result.returncode == 2
+    assert "tau" in result.stderr
+
+
+def test_blur_and_jpeg(tmp_path):
+    made = report(tmp_path, "--maze", "small", "--blur", 1, "--jpeg", 75, "--interactions", 800)
+    assert made["optimal_seen"] == 1.0
+
+
+@pytest.mark.skipif(not CAMERA, reason="the camera example was not built")
+def test_camera(tmp_path):
+    for thing in range(3):
+        for name, shifts in ("learn", (0, 2, 4, 6)), ("run", (1, 3, 5)):
+            frames = tmp_path / f"{name}{thing}"
+            frames.mkdir()
+            for shift in shifts:
+                write(frames / f"{shift}.ppm", picture(thing, shift))
+    model, overlay = tmp_path / "model", tmp_path / "overlay"
+    overlay.mkdir()
+    taught = run("learn", model, *(tmp_path / f"learn{i}" for i in range(3)), program=CAMERA)
+    assert taught.returncode == 0, taught.stderr
+    for thing in range(3):
+        done = run("run", model, tmp_path / f"run{thing}", "--overlay", overlay, program=CAMERA)
+        assert done.returncode == 0, done.stderr
+        lines = done.stdout.splitlines()
+        assert len(lines) == 3
+        assert all(line.endswith(f"action {thing}") for line in lines)
+    assert len(list(overlay.iterdir())) == 3
+    for wrong in ("run", tmp_path / "nowhere", tmp_path / "run0"), ("run", model, overlay / "no"):
+        assert run(*wrong, program=CAMERA).returncode == 2
+
+
+@pytest.mark.skipif(not COIL100, reason="RLVC_COIL100 does not name a folder of COIL-100 pictures")
+def test_photographs(tmp_path):
+    fixed = ("--images", COIL100, "--descriptor", "invariants", "--raw-light", "--margin", 1,
+             "--share", 0.2, "--interactions", 3000, "--runs", 20)
+    made = report(tmp_path, *fixed)
+    assert made["optimal_seen"] == 1.0
+    assert max(one["classes"] for one in made["runs"]) <= 46
+    made = report(tmp_path, "--images", COIL100, "--noise", 3, "--light", 0.05, "--runs", 3,
+                  "--poses", "0,20,-20", "--test-poses", "10,-10")
+    assert made["optimal_seen"] >= 0.99
+    assert made["optimal_heldout"] >= 0.97
+    assert max(one["classes"] for one in made["runs"]) <= 69
