@@ -19,8 +19,8 @@
 #define LANES 8u
 #define CHUNK 32u
 #define BINS 64u
-#define GAP_MIN 8u    /* bins; narrower gaps are refused */
-#define GAP_BEYOND 8u /* the radius leaves 1 / GAP_BEYOND of the gap beyond it */
+#define GAP_MIN 7u    /* bins; narrower gaps are refused */
+#define GAP_BEYOND 5u /* the radius leaves 1 / GAP_BEYOND of the gap beyond it */
 #define MEASURED 512u /* percepts */
 #define NUMBER_MAX 1e15f
 #define PERCEPT_BYTES_MAX (1u << 20)
@@ -352,7 +352,7 @@ rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uint32_t poi
         .points = points,
         .dimensions = dimensions,
         .candidates = 64u,
-        .draws = 4u,
+        .draws = 8u,
         .radius = radius,
         .margin = 1.8f,
         .form = (uint8_t)form,

@@ -238,15 +238,16 @@ static void make_clusters(int near, int far, uint32_t count) {
 static void test_margin(void **state) {
     (void)state;
     uint32_t written;
-    /* tau 4, m 2: from 2 to 8 nothing lies, so the radius is an eighth below 8. */
+    /* tau 4, m 2: from 2 to 8 nothing lies, so the radius is a fifth of that below 8. */
     make_clusters(0, 100, PERCEPTS);
     assert_int_equal(f.domain.candidates(&f.d, &f.samples, 0, 1, f.features, &written), 0);
-    assert_true(rlvc_descriptors_radius(feature(0)) == 7.25f);
+    assert_true(rlvc_descriptors_radius(feature(0)) > 6.79f);
+    assert_true(rlvc_descriptors_radius(feature(0)) < 6.81f);
     /* ... those at 5 are in the way: from 2 to 5. */
     make_clusters(0, 5, PERCEPTS);
     assert_int_equal(f.domain.candidates(&f.d, &f.samples, 0, 1, f.features, &written), 0);
-    assert_true(rlvc_descriptors_radius(feature(0)) > 4.5f);
-    assert_true(rlvc_descriptors_radius(feature(0)) < 4.75f);
+    assert_true(rlvc_descriptors_radius(feature(0)) > 4.3f);
+    assert_true(rlvc_descriptors_radius(feature(0)) < 4.5f);
     /* All within, or none beyond: nothing to tell apart. */
     make_clusters(0, 1, PERCEPTS);
     assert_int_equal(f.domain.candidates(&f.d, &f.samples, 0, 1, f.features, &written), 0);
@@ -275,7 +276,8 @@ static void test_margin_of_many(void **state) {
     f.samples.count = 2000;
     assert_int_equal(f.domain.candidates(&f.d, &f.samples, 0, 2, f.features, &written), 0);
     assert_int_equal(written, 2);
-    assert_true(rlvc_descriptors_radius(feature(0)) == 7.25f);
+    assert_true(rlvc_descriptors_radius(feature(0)) > 6.79f);
+    assert_true(rlvc_descriptors_radius(feature(0)) < 6.81f);
 }
 
 /* More targets than candidates: they come from all of them evenly. */

@@ -30,12 +30,12 @@ typedef struct rlvc_descriptors {
                             [1, RLVC_DESCRIPTORS_CANDIDATES_MAX]. Default 64 */
     uint32_t draws;      /* a candidate is the one that the margin rule likes best of so many vectors
                             drawn from the class's percepts, [1, RLVC_DESCRIPTORS_DRAWS_MAX]. Of no
-                            meaning without that rule. Default 4 */
+                            meaning without that rule. Default 8 */
     float radius;        /* tau, in units of the percept's numbers, (0, 1e15] */
     float margin;        /* m, [1, 16]. 1: every feature has the radius tau. Else the margin rule: each
                             has a radius of its own in [tau / m, m tau], in the widest gap that the
-                            class's percepts leave there, and is refused if that is less than an eighth
-                            of the interval. Default 1.8 */
+                            class's percepts leave there, and is refused if that is less than a ninth of
+                            the interval. Default 1.8 */
     uint8_t form;        /* RLVC_DESCRIPTORS_* */
     uint8_t reserved[3]; /* 0 */
 } rlvc_descriptors;

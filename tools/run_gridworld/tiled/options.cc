@@ -82,7 +82,7 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
     app.add_option("--sigma", options.sigma, "scale of the vectors in pixels (by descriptor)")
         ->check(CLI::Range(0.5, 8.0));
     app.add_option("--share", options.share,
-                   "of the other objects' pictures that have a feature at tau (0.05)")
+                   "of the other objects' pictures that have a feature at tau (0.035)")
         ->check(CLI::Range(0.001, 0.999));
     app.add_option("--margin", options.margin, "of the margin rule; 1: a fixed tau (1.8)")
         ->check(CLI::Range(1.0, 16.0));
@@ -110,7 +110,7 @@ void add_learning(CLI::App &app, TiledOptions &options) {
     app.add_option("--interactions", options.interactions,
                    "returns: of each step (2000); residual: of the run (4500)")
         ->check(CLI::Range(1, 1000000));
-    app.add_option("--steps", options.steps, "learning steps (returns: 20; residual: 2)")
+    app.add_option("--steps", options.steps, "learning steps (returns: 20; residual: 3)")
         ->check(CLI::Range(1, 10000));
     app.add_option("--gamma", options.gamma, "discount of future rewards (0.9)")
         ->check(CLI::Range(0.0, 0.999));
@@ -134,7 +134,7 @@ void settle(TiledOptions &options) {
         options.interactions = returns ? 2000 : 4500;
     }
     if (options.steps == 0) {
-        options.steps = returns ? 20 : 2;
+        options.steps = returns ? 20 : 3;
     }
     if (!returns && options.steps > options.interactions) {
         throw Failure("--steps: at most one for each interaction");

@@ -21,8 +21,8 @@ struct TiledOptions {
     // Seeing.
     uint32_t descriptor = 0; // RLVC_DESCRIPTOR_*
     uint32_t points = 30;
-    float sigma = 0.0f;  // 0: the descriptor's default
-    float share = 0.05f; // of the other objects' pictures that exhibit a feature at tau
+    float sigma = 0.0f;   // 0: the descriptor's default
+    float share = 0.035f; // of the other objects' pictures that exhibit a feature at tau
     float margin = 1.8f;
     uint32_t candidates = 64;
     bool normalise = true;
