@@ -58,7 +58,9 @@ def predict_ratio(agent):
         ]  # fmt: skip
     in_c, in_python = (min(column) for column in zip(*times, strict=True))
     assert all((a == b).all() for a, b in zip(found, out, strict=True))
-    print(f"predict of 1e6 percepts: {in_c * 1e3:.1f} ms in C, {in_python * 1e3:.1f} ms from Python")
+    print(
+        f"predict of 1e6 percepts: {in_c * 1e3:.1f} ms in C, {in_python * 1e3:.1f} ms from Python"
+    )
     return in_python / in_c
 
 
