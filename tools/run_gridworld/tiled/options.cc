@@ -110,7 +110,7 @@ void add_learning(CLI::App &app, TiledOptions &options) {
     app.add_option("--interactions", options.interactions,
                    "returns: of each step (2000); residual: of the run (4500)")
         ->check(CLI::Range(1, 1000000));
-    app.add_option("--steps", options.steps, "learning steps (returns: 20; residual: 3)")
+    app.add_option("--steps", options.steps, "learning steps (returns: 20; residual: 2)")
         ->check(CLI::Range(1, 10000));
     app.add_option("--gamma", options.gamma, "discount of future rewards (0.9)")
         ->check(CLI::Range(0.0, 0.999));
@@ -134,7 +134,7 @@ void settle(TiledOptions &options) {
         options.interactions = returns ? 2000 : 4500;
     }
     if (options.steps == 0) {
-        options.steps = returns ? 20 : 3;
+        options.steps = returns ? 20 : 2;
     }
     if (!returns && options.steps > options.interactions) {
         throw Failure("--steps: at most one for each interaction");
