@@ -254,8 +254,8 @@ RLVC_API rlvc_vision_status rlvc_extractor_extract(rlvc_extractor *extractor,
                                                    rlvc_vision_error *error);
 
 /* What one step of the percept's numbers is worth: 1 in the float form; in the int8 form the
- * metric's step, or the descriptor's own (1/512 for SIFT, whose numbers stand there minus 1/4, and
- * 1/16 for ORB: both lose nothing). O(1). */
+ * metric's step, or the descriptor's own: 1/512 for SIFT, whose numbers stand there minus 1/4
+ * (nothing is lost but that 0 becomes 1/512), and 1/16 for ORB. O(1). */
 RLVC_API float rlvc_extractor_step(const rlvc_extractor *extractor);
 
 /* Frees an extractor; null is allowed. */
