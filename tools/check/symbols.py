@@ -7,8 +7,9 @@ import argparse
 import subprocess
 import sys
 
-# What a compiler makes calls of on its own, out of loops and copies: it is there on every target.
-ALLOWED = {"memcpy", "memmove", "memset", "memcmp", "strlen", "_GLOBAL_OFFSET_TABLE_"}
+# What a compiler makes calls of on its own, out of loops, copies and (bcmp, by clang where the C library
+# has it) memcmp: it is there on every target.
+ALLOWED = {"bcmp", "memcpy", "memmove", "memset", "memcmp", "strlen", "_GLOBAL_OFFSET_TABLE_"}
 ASSERTS = {"__assert_fail"}
 # The types that nm gives to code, read-only data and undefined names. All else is writable data,
 # common or weak, but for constants that hold addresses: the loader writes these once.

@@ -209,9 +209,10 @@ std::string make_tiled_report(const TiledOptions &options, const std::vector<std
                               const std::vector<TiledRun> &runs) {
     double seen = 0.0, held = 0.0;
     for (const TiledRun &run : runs) {
-        seen += run.optimal_seen / static_cast<double>(runs.size());
-        held += run.optimal_heldout / static_cast<double>(runs.size());
+        seen += run.optimal_seen;
+        held += run.optimal_heldout;
     }
+    const auto count = static_cast<double>(runs.size());
     Json json{{"version", report_version},
               {"kind", "run_gridworld tiled"},
               {"program", std::string("run_gridworld ") + rlvc_version()},
@@ -219,8 +220,8 @@ std::string make_tiled_report(const TiledOptions &options, const std::vector<std
               {"maze", rows},
               {"tau", gallery.tau()},
               {"milliseconds_a_picture", gallery.milliseconds()},
-              {"optimal_seen", seen},
-              {"optimal_heldout", held},
+              {"optimal_seen", seen / count},
+              {"optimal_heldout", held / count},
               {"objects", describe_objects(gallery)},
               {"runs", Json::array()}};
     for (const TiledRun &run : runs) {
