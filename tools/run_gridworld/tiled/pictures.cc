@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <regex>
 #include <set>
 
 namespace {
@@ -49,14 +49,13 @@ std::vector<fs::path> list_folder(const std::string &folder) {
 
 // COIL-100's names if any file has such a one: the others are then left alone.
 std::vector<File> find_files(const std::string &folder) {
-    const std::regex pattern("obj([0-9]{1,6})__([0-9]{1,3})\\..*");
     std::vector<File> named, others;
     for (const fs::path &path : list_folder(folder)) {
-        std::smatch match;
+        int number = 0, angle = 0, dot = 0;
         const std::string name = path.filename().string();
-        if (std::regex_match(name, match, pattern)) {
-            named.push_back(
-                {std::stol(match[1]), "obj" + match[1].str(), std::stoi(match[2]) % 360, path});
+        if (std::sscanf(name.c_str(), "obj%6d__%3d%n", &number, &angle, &dot) == 2 &&
+            number >= 0 && angle >= 0 && name[static_cast<std::size_t>(dot)] == '.') {
+            named.push_back({number, "obj" + std::to_string(number), angle % 360, path});
         } else {
             others.push_back(
                 {static_cast<long>(others.size()), path.stem().string(), any_angle, path});
