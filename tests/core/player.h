@@ -46,7 +46,7 @@ static inline int player_oracle(void *ctx, const rlvc_samples *samples, uint32_t
         uint32_t present_below = 0, present = 0;
         for (uint32_t i = 0; i < samples->count; i++) {
             const unsigned char *percept = (const unsigned char *)rlvc_samples_percept(samples, i);
-            uint32_t shows = percept[bit / 8u] >> bit % 8u & 1u;
+            uint32_t shows = (uint32_t)percept[bit / 8u] >> bit % 8u & 1u;
             present += shows;
             present_below += i < below ? shows : 0u;
         }
