@@ -23,7 +23,6 @@
 #define GAP_BEYOND 5u /* the radius leaves 1 / GAP_BEYOND of the gap beyond it */
 #define MEASURED 512u /* percepts */
 #define NUMBER_MAX 1e15f
-#define PERCEPT_BYTES_MAX (1u << 20)
 #define REFUSED (-1.0f)
 
 /* ------------------------------------------------------------------ records */
@@ -365,13 +364,13 @@ static int in(uint32_t value, uint32_t low, uint32_t high) {
     return value >= low && value <= high;
 }
 
+/* A percept of the most points and dimensions is below the 2^20 bytes that a domain may have. */
 static int is_valid(const rlvc_descriptors *d) {
     return in(d->points, 1, RLVC_DESCRIPTORS_POINTS_MAX) &&
            in(d->dimensions, 1, RLVC_DESCRIPTORS_DIMENSIONS_MAX) &&
            in(d->candidates, 1, RLVC_DESCRIPTORS_CANDIDATES_MAX) &&
            in(d->draws, 1, RLVC_DESCRIPTORS_DRAWS_MAX) && d->form <= RLVC_DESCRIPTORS_INT8 &&
-           d->radius > 0.0f && d->radius <= NUMBER_MAX && d->margin >= 1.0f && d->margin <= 16.0f &&
-           RLVC_DESCRIPTORS_PERCEPT_BYTES(d->points, d->dimensions, d->form) <= PERCEPT_BYTES_MAX;
+           d->radius > 0.0f && d->radius <= NUMBER_MAX && d->margin >= 1.0f && d->margin <= 16.0f;
 }
 
 rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain) {
@@ -385,6 +384,7 @@ rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *
                                                         descriptors->dimensions, descriptors->form),
         .feature_bytes = feature_bytes(descriptors),
         .features_max = descriptors->candidates,
+        .kind = RLVC_DOMAIN_DESCRIPTORS,
         .exhibits = exhibits,
         .candidates = candidates,
         .detect = detect,

@@ -461,14 +461,42 @@ static void test_learning(void **state) {
     }
 }
 
+/* Of 1024 samples every other one is measured: none of those is near what only the others have, so that a
+ * radius for it has nothing on this side, nor is there anything beyond what they all have. */
+static void test_gap_without_a_near_side(void **unused) {
+    (void)unused;
+    static rlvc_sample sample[1024];
+    uint32_t written = 0;
+    open_fixture(1, 1, RLVC_DESCRIPTORS_FLOAT, 1.8f);
+    for (uint32_t i = 0; i < 2; i++) {
+        set_count(i, 1);
+        set_number(percept(i), 0, 4 * (int)i);
+    }
+    for (uint32_t i = 0; i < 1024; i++)
+        sample[i] = (rlvc_sample){0, i % 2u};
+    f.samples.sample = sample;
+    f.samples.count = 1024;
+    assert_int_equal(f.domain.candidates(f.domain.ctx, &f.samples, 0, 8, f.features, &written), 0);
+    assert_int_equal(written, 8);
+    for (uint32_t j = 0; j < written; j++)
+        assert_true(rlvc_descriptors_radius(feature(j)) < 0.0f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_detect),         cmocka_unit_test(test_edge_of_radius),
-        cmocka_unit_test(test_candidates),     cmocka_unit_test(test_candidates_repeat),
-        cmocka_unit_test(test_margin),         cmocka_unit_test(test_margin_of_many),
-        cmocka_unit_test(test_targets_evenly), cmocka_unit_test(test_damaged_percepts),
-        cmocka_unit_test(test_nearest),        cmocka_unit_test(test_name),
-        cmocka_unit_test(test_ranges),         cmocka_unit_test(test_learning),
+        cmocka_unit_test(test_detect),
+        cmocka_unit_test(test_edge_of_radius),
+        cmocka_unit_test(test_candidates),
+        cmocka_unit_test(test_candidates_repeat),
+        cmocka_unit_test(test_margin),
+        cmocka_unit_test(test_margin_of_many),
+        cmocka_unit_test(test_targets_evenly),
+        cmocka_unit_test(test_damaged_percepts),
+        cmocka_unit_test(test_nearest),
+        cmocka_unit_test(test_name),
+        cmocka_unit_test(test_ranges),
+        cmocka_unit_test(test_learning),
+        cmocka_unit_test(test_gap_without_a_near_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,13 +8,20 @@
 
 #include <cmocka.h>
 
+#include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 
+#include <string.h>
+
 #define BITS 2u
+#define DIMENSIONS 9u
+#define PERCEPT_BYTES RLVC_DESCRIPTORS_PERCEPT_BYTES(3, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
+#define FEATURE_BYTES RLVC_DESCRIPTORS_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
 
 static union {
     uint64_t aligned;
     unsigned char bytes[RLVC_AGENT_BYTES(2, 400, 8, 1, RLVC_BITS_FEATURE_BYTES, BITS)];
+    unsigned char vectors[RLVC_AGENT_BYTES(255, 1920, 16, PERCEPT_BYTES, FEATURE_BYTES, 64)];
 } memory;
 
 /* Counts the writes; fails the one numbered `failing`, from 1. */
@@ -59,8 +66,9 @@ static rlvc_agent *make(uint32_t kind) {
 
 static void test_refusals(void **unused) {
     (void)unused;
-    static const char *const wrong[] = {"", "1st", "a-b", "a b", "a{", "a[", "a@",
-                                        "a2345678901234567890123456789012345678901234567890"};
+    static const char *const wrong[] = {
+        "",   "1st", "a-b", "a b",
+        "a{", "a[",  "a@",  "a2345678901234567890123456789012345678901234567890"};
     static const char *const right[] = {"a", "_", "Z9", "a_z"};
     writer w = {0, 0, NULL, RLVC_OK};
     rlvc_agent *agent = make(RLVC_DOMAIN_BITS);
@@ -100,11 +108,135 @@ static void test_reentering(void **unused) {
     assert_int_equal(w.reentered, RLVC_E_REENTERED);
 }
 
+/* ------------------------------------------------------------------ descriptors */
+
+/* Vector `which` of three: whole numbers, fractions, small and large ones of either sign. */
+static void put_vector(unsigned char *out, uint32_t which, uint32_t form) {
+    static const float number[DIMENSIONS] = {0.0f,   1.5f, -7.0f, 1e-7f,       2e9f,
+                                             -3e12f, 1e9f, 0.1f,  999999936.0f};
+    for (uint32_t k = 0; k < DIMENSIONS; k++) {
+        const float value = number[(which + k) % DIMENSIONS];
+        const int8_t byte = (int8_t)((int)((which + k) % 3u) * 100 - 100);
+        if (form == RLVC_DESCRIPTORS_INT8)
+            memcpy(out + k, &byte, 1);
+        else
+            memcpy(out + 4u * k, &value, sizeof value);
+    }
+}
+
+/* Those of the three whose bits are set. */
+static void make_percept(uint32_t set, uint32_t form, uint32_t percept[PERCEPT_BYTES / 4u]) {
+    unsigned char *at = (unsigned char *)percept + 4u;
+    memset(percept, 0, PERCEPT_BYTES);
+    for (uint32_t which = 0; which < 3; which++)
+        if (set >> which & 1u) {
+            put_vector(at, which, form);
+            at += RLVC_DESCRIPTORS_VECTOR_BYTES(DIMENSIONS, form);
+            percept[0]++;
+        }
+}
+
+/* An agent that has learnt to act by the first two vectors where the first is absent, else by all three;
+ * or, if it knows one percept only, that there is nothing to tell apart. */
+static rlvc_agent *make_of_vectors(uint32_t form, uint32_t actions, uint32_t percepts) {
+    static rlvc_descriptors descriptors;
+    static const uint8_t wanted[8] = {0, 2, 1, 3, 0, 4, 1, 5};
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    assert_int_equal(rlvc_descriptors_default(&descriptors, 3, DIMENSIONS, form, 0.5f), RLVC_OK);
+    descriptors.margin = 1.0f;
+    assert_int_equal(rlvc_descriptors_domain(&descriptors, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, actions), RLVC_OK);
+    config.capacity = 1920;
+    config.classes = 16;
+    assert_int_equal(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &agent), RLVC_OK);
+    for (uint32_t i = 0; i < 1920; i++) {
+        uint32_t percept[PERCEPT_BYTES / 4u];
+        const uint32_t set = i % percepts;
+        const rlvc_choice choice = {(uint8_t)(i / 8u % 6u), 0};
+        make_percept(set, form, percept);
+        assert_int_equal(rlvc_begin(agent, percept), RLVC_OK);
+        assert_int_equal(rlvc_observe(agent, choice, choice.action == wanted[set] ? 1.0f : 0.0f,
+                                      NULL, RLVC_TERMINATED),
+                         RLVC_OK);
+    }
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    return agent;
+}
+
+/* Keeps what is written. */
+typedef struct text {
+    char text[16384];
+    size_t bytes;
+} text;
+
+static int keep(void *ctx, const char *written, size_t bytes) {
+    text *t = ctx;
+    assert_true(t->bytes + bytes < sizeof t->text);
+    memcpy(t->text + t->bytes, written, bytes);
+    t->bytes += bytes;
+    return 0;
+}
+
+static text exported;
+
+static rlvc_export_info export_vectors(uint32_t form, uint32_t actions, uint32_t percepts) {
+    rlvc_export_info info;
+    rlvc_agent *agent = make_of_vectors(form, actions, percepts);
+    memset(&exported, 0, sizeof exported);
+    assert_int_equal(rlvc_export_c(agent, "v", keep, &exported, &info), RLVC_OK);
+    return info;
+}
+
+/* Three distinct features, of which two are tested twice and written once. */
+static void test_vectors(void **unused) {
+    (void)unused;
+    rlvc_export_info info = export_vectors(RLVC_DESCRIPTORS_FLOAT, 6, 8);
+    assert_int_equal(info.compact, 6);
+    assert_int_equal(info.bytes, 5 * 3 + 3 * (4 + 4 * DIMENSIONS));
+    assert_non_null(strstr(exported.text, "static const unsigned char v_node[5][3]"));
+    assert_non_null(strstr(exported.text, "v_vector[3][9]"));
+    assert_non_null(strstr(exported.text, "0.0f, 1.5f, -7.0f, 1.00000001e-7f, 2e+9f, "
+                                          "-3.00000005e+12f, 1e+9f, 0.100000001f,\n"
+                                          "     999999936.0f}"));
+    info = export_vectors(RLVC_DESCRIPTORS_INT8, 255, 8);
+    assert_int_equal(info.compact, 6);
+    assert_int_equal(info.bytes, 5 * 12 + 3 * (4 + DIMENSIONS));
+    assert_non_null(strstr(exported.text, "static const unsigned v_node[5][3]"));
+    assert_non_null(strstr(exported.text, "{-100, 0, 100, -100, 0, 100, -100, 0,\n     100}"));
+}
+
+static void test_vectors_that_do_not_matter(void **unused) {
+    (void)unused;
+    rlvc_export_info info = export_vectors(RLVC_DESCRIPTORS_FLOAT, 6, 1);
+    assert_int_equal(info.compact, 1);
+    assert_int_equal(info.bytes, 0);
+    assert_non_null(strstr(exported.text, "v_act(const void *percept) {\n    (void)percept;\n"
+                                          "    return 0u;\n}\n"));
+}
+
+static void test_each_write_of_vectors_failing(void **unused) {
+    (void)unused;
+    rlvc_agent *agent = make_of_vectors(RLVC_DESCRIPTORS_INT8, 6, 8);
+    writer all = {0, 0, NULL, RLVC_OK};
+    assert_int_equal(rlvc_export_c(agent, "a", count_writes, &all, NULL), RLVC_OK);
+    for (uint32_t n = 1; n <= all.count; n++) {
+        writer w = {0, n, NULL, RLVC_OK};
+        assert_int_equal(rlvc_export_c(agent, "a", count_writes, &w, NULL), RLVC_E_CALLBACK);
+        assert_int_equal(w.count, n);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_each_write_failing),
         cmocka_unit_test(test_reentering),
+        cmocka_unit_test(test_vectors),
+        cmocka_unit_test(test_vectors_that_do_not_matter),
+        cmocka_unit_test(test_each_write_of_vectors_failing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

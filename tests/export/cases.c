@@ -4,13 +4,19 @@
 #include "gridworld.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define BITS_MAX 300u
 #define BYTES_MAX GRIDWORLD_PERCEPT_BYTES(BITS_MAX)
+#define PLACES 6u
+#define VECTORS_CAPACITY 1500u
 
 static union {
     uint64_t aligned;
     unsigned char bytes[RLVC_AGENT_BYTES(4, 45000, 400, BYTES_MAX, RLVC_BITS_FEATURE_BYTES, 64)];
+    unsigned char vectors[RLVC_AGENT_BYTES(
+        4, VECTORS_CAPACITY, 400, sizeof(vectors),
+        RLVC_DESCRIPTORS_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT), 64)];
 } memory;
 
 static void must(rlvc_status status, const char *what) {
@@ -82,11 +88,96 @@ static void learn_decisions(rlvc_agent *agent, uint32_t bits, uint32_t depth, ui
     learn(agent);
 }
 
+/* ------------------------------------------------------------------ descriptors */
+
+uint32_t draw(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(*state >> 32);
+}
+
+void set_number(unsigned char *record, uint32_t form, uint32_t k, float number) {
+    const int8_t byte = (int8_t)(number < -127.0f ? -127.0f : number > 127.0f ? 127.0f : number);
+    if (form == RLVC_DESCRIPTORS_INT8)
+        memcpy(record + 4u + k, &byte, 1);
+    else
+        memcpy(record + 4u + 4u * k, &number, sizeof number);
+}
+
+float get_number(const unsigned char *record, uint32_t form, uint32_t k) {
+    int8_t byte;
+    float number;
+    memcpy(&byte, record + 4u + k, 1);
+    if (form == RLVC_DESCRIPTORS_INT8)
+        return (float)byte;
+    memcpy(&number, record + 4u + 4u * k, sizeof number);
+    return number;
+}
+
+/* Which of the places a vector is near: that is known by its first number, for the rule. */
+static float place_number(uint32_t place, uint32_t k) {
+    uint64_t state = place * DIMENSIONS + k;
+    (void)draw(&state);
+    return k == 0 ? 40.0f * (float)place - 100.0f : (float)(draw(&state) % 200u) - 100.0f;
+}
+
+void draw_vectors(uint64_t *state, uint32_t form, vectors *percept) {
+    percept->count = draw(state) % (POINTS + 1u);
+    for (uint32_t point = 0; point < POINTS; point++) {
+        const uint32_t place = draw(state) % PLACES;
+        for (uint32_t k = 0; k < DIMENSIONS; k++)
+            set_number(percept->bytes, form, point * DIMENSIONS + k,
+                       place_number(place, k) + (float)(draw(state) % 1000u) / 300.0f);
+    }
+}
+
+/* What to do, by the places that some vector is near. */
+static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
+    uint32_t near = 0;
+    for (uint32_t point = 0; point < percept->count; point++) {
+        const float first = get_number(percept->bytes, form, point * DIMENSIONS);
+        near |= 1u << (uint32_t)((first + 110.0f) / 40.0f);
+    }
+    return near & 1u ? (near & 2u ? 2u : 1u) : near & 4u ? 3u : 0u;
+}
+
+static learnt learn_vectors(uint32_t form) {
+    static rlvc_descriptors descriptors;
+    learnt made = {NULL, 0, &descriptors};
+    rlvc_domain domain;
+    rlvc_config config;
+    uint64_t state = 1;
+    must(rlvc_descriptors_default(&descriptors, POINTS, DIMENSIONS, form, 150.0f), "default");
+    descriptors.candidates = 24;
+    descriptors.draws = 2;
+    must(rlvc_descriptors_domain(&descriptors, &domain), "domain");
+    must(rlvc_config_default(&config, &domain, 4), "config");
+    config.capacity = VECTORS_CAPACITY;
+    config.classes = 400;
+    config.epsilon = 1.0f;
+    must(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &made.agent), "init");
+    for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
+        rlvc_choice choice;
+        vectors percept;
+        memset(&percept, 0, sizeof percept);
+        draw_vectors(&state, form, &percept);
+        must(rlvc_begin(made.agent, &percept), "begin");
+        must(rlvc_act(made.agent, &choice), "act");
+        const float reward = choice.action == wanted_of_vectors(&percept, form) ? 1.0f : 0.0f;
+        must(rlvc_observe(made.agent, choice, reward, NULL, RLVC_TERMINATED), "observe");
+    }
+    learn(made.agent);
+    return made;
+}
+
+/* ------------------------------------------------------------------ cases */
+
 learnt learn_case(uint32_t i) {
-    static const uint32_t bits[CASES] = {18, 7, 40, BITS_MAX, 40};
-    static const uint32_t capacity[CASES] = {4000, 100, 30000, 30000, 45000};
-    static const uint32_t depth[CASES] = {0, 0, 4, 5, 6};
-    learnt made = {NULL, bits[i]};
+    if (i >= 5)
+        return learn_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8);
+    static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};
+    static const uint32_t capacity[] = {4000, 100, 30000, 30000, 45000};
+    static const uint32_t depth[] = {0, 0, 4, 5, 6};
+    learnt made = {NULL, bits[i], NULL};
     rlvc_domain domain;
     rlvc_config config;
     must(rlvc_bits_domain(bits[i], &domain), "domain");

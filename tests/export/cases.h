@@ -4,20 +4,44 @@
 #ifndef RLVC_TESTS_EXPORT_CASES_H
 #define RLVC_TESTS_EXPORT_CASES_H
 
+#include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 
 /* maze    Sutton's maze: 18 bits, a table of actions
  * single  nothing to learn: one class
  * bytes   40 bits, of which many matter: a table of nodes in bytes
  * wide    300 bits: a table of nodes in words
- * many    so many leaves that the table of nodes is in words */
-#define CASE_NAMES {"maze", "single", "bytes", "wide", "many"}
-#define CASES 5u
+ * many    so many leaves that the table of nodes is in words
+ * floats  descriptors, as floats
+ * int8s   descriptors, as int8_t */
+#define CASE_NAMES                                                                                 \
+    { "maze", "single", "bytes", "wide", "many", "floats", "int8s" }
+#define CASES 7u
+
+#define POINTS 4u
+#define DIMENSIONS 36u
 
 typedef struct learnt {
     rlvc_agent *agent;
-    uint32_t bits;
+    uint32_t bits;                       /* 0: descriptors */
+    const rlvc_descriptors *descriptors; /* of which the percepts are, or null */
 } learnt;
+
+/* A percept of descriptors in either form, aligned. */
+typedef union vectors {
+    uint32_t count;
+    unsigned char bytes[RLVC_DESCRIPTORS_PERCEPT_BYTES(POINTS, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)];
+} vectors;
+
+/* A random number; seed *state with anything. */
+uint32_t draw(uint64_t *state);
+
+/* Draws a percept of 0 to POINTS vectors, each near one of a few places. */
+void draw_vectors(uint64_t *state, uint32_t form, vectors *percept);
+
+/* Number k of the vectors of a percept, or of a feature. */
+void set_number(unsigned char *record, uint32_t form, uint32_t k, float number);
+float get_number(const unsigned char *record, uint32_t form, uint32_t k);
 
 /* Learns case i; the memory is static, so that the last case learnt is the one there is. Ends the program
  * with a message if anything fails. */

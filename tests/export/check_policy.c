@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Proves the exported policies equal to the agents that they were exported from: on every percept up to
  * 20 bits, else on a path to each leaf of the tree (many, the other bits being random) and on a million
- * random percepts. And an agent that learnt the same exports the same, to the letter. */
+ * random percepts; of descriptors on a million random percepts, of which half have a vector whose distance
+ * from a feature is its radius up to a few roundings. And an agent that learnt the same exports the same, to the letter. */
 #include "bytes.h"
 #include "cases.h"
+#include "floats.h"
+#include "int8s.h"
 #include "many.h"
 #include "maze.h"
 #include "single.h"
@@ -16,11 +19,6 @@
 
 static uint64_t state = 1;
 
-static uint32_t draw(void) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(state >> 32);
-}
-
 static unsigned exported(uint32_t i, const unsigned char *percept) {
     switch (i) {
     case 0:
@@ -31,8 +29,12 @@ static unsigned exported(uint32_t i, const unsigned char *percept) {
         return bytes_act(percept);
     case 3:
         return wide_act(percept);
-    default:
+    case 4:
         return many_act(percept);
+    case 5:
+        return floats_act(percept);
+    default:
+        return int8s_act(percept);
     }
 }
 
@@ -42,8 +44,9 @@ static int same(const learnt *made, uint32_t i, const unsigned char *percept) {
     if (rlvc_predict(made->agent, percept, NULL, &action) == RLVC_OK &&
         action == exported(i, percept))
         return 1;
+    const uint32_t bytes = made->bits > 0 ? RLVC_BITS_PERCEPT_BYTES(made->bits) : sizeof(vectors);
     printf("  percept");
-    for (uint32_t byte = 0; byte < RLVC_BITS_PERCEPT_BYTES(made->bits); byte++)
+    for (uint32_t byte = 0; byte < bytes; byte++)
         printf(" %02x", percept[byte]);
     printf(": the agent does %u, its export %u\n", (unsigned)action, exported(i, percept));
     return 0;
@@ -89,7 +92,7 @@ static int check_some(const learnt *made, uint32_t i) {
         return 0;
     for (uint32_t n = 0; n < 1000000u; n++) {
         for (uint32_t byte = 0; byte < sizeof percept; byte++)
-            percept[byte] = (unsigned char)draw();
+            percept[byte] = (unsigned char)draw(&state);
         if (n < 100u * statistics.classes) {
             uint32_t wanted = n % statistics.classes, found = UINT32_MAX;
             lead_to(made, wanted, statistics.classes, percept);
@@ -102,6 +105,49 @@ static int check_some(const learnt *made, uint32_t i) {
         if (!same(made, i, percept))
             return 0;
     }
+    return 1;
+}
+
+/* Puts the first vector of a percept just so far from that of a feature as its radius reaches: each number
+ * is off by radius / 6, and there are 36. */
+static void put_at_edge(const learnt *made, uint32_t split_number, vectors *percept) {
+    const uint32_t form = made->descriptors->form;
+    rlvc_split split;
+    vectors feature;
+    if (rlvc_split_at(made->agent, split_number, &split, &feature) != RLVC_OK)
+        return;
+    const float radius = rlvc_descriptors_radius(&feature);
+    percept->count = 1u + percept->count % POINTS;
+    for (uint32_t k = 0; k < DIMENSIONS; k++) {
+        const float roundings = (float)(draw(&state) % 33u) - 16.0f;
+        const float off = radius / 6.0f * (1.0f + 1.2e-7f * roundings);
+        set_number(percept->bytes, form, k,
+                   get_number(feature.bytes, form, k) + (draw(&state) % 2u ? off : -off));
+    }
+}
+
+static int check_vectors(const learnt *made, uint32_t i) {
+    uint32_t reached[400] = {0};
+    rlvc_statistics statistics;
+    if (rlvc_stats(made->agent, &statistics) != RLVC_OK || statistics.classes < 4)
+        return 0;
+    for (uint32_t n = 0; n < 1000000u; n++) {
+        vectors percept;
+        uint32_t class_id = 0;
+        memset(&percept, 0, sizeof percept);
+        draw_vectors(&state, made->descriptors->form, &percept);
+        if (n % 2u)
+            put_at_edge(made, draw(&state) % (statistics.classes - 1u), &percept);
+        if (!same(made, i, percept.bytes) ||
+            rlvc_predict(made->agent, &percept, &class_id, NULL) != RLVC_OK)
+            return 0;
+        reached[class_id]++;
+    }
+    for (uint32_t c = 0; c < statistics.classes; c++)
+        if (reached[c] == 0) {
+            printf("  no percept fell into class %u\n", (unsigned)c);
+            return 0;
+        }
     return 1;
 }
 
@@ -133,7 +179,9 @@ int main(void) {
     int failed = 0;
     for (uint32_t i = 0; i < CASES; i++) {
         learnt made = learn_case(i);
-        int equal = made.bits <= 20 ? check_all(&made, i) : check_some(&made, i);
+        int equal = made.descriptors  ? check_vectors(&made, i)
+                    : made.bits <= 20 ? check_all(&made, i)
+                                      : check_some(&made, i);
         int again = exports_the_same(&made, names[i]);
         printf("%s: %s, exported again %s\n", names[i],
                equal ? "the same on all percepts tried" : "DIFFERENT",

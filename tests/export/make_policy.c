@@ -33,6 +33,6 @@ int main(int argc, char **argv) {
         if (strcmp(argv[1], names[i]) == 0)
             return export_case(i, names[i], argv[2]);
     }
-    fprintf(stderr, "usage: make_policy maze|single|bytes|wide|many FILE\n");
+    fprintf(stderr, "usage: make_policy maze|single|bytes|wide|many|floats|int8s FILE\n");
     return 2;
 }

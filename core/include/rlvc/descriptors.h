@@ -67,8 +67,7 @@ RLVC_API rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uin
  * of a call. Under the margin rule candidates() measures each vector drawn against up to
  * 512 of the class's percepts, evenly chosen: O(512 P D) for each of room * draws vectors, in one call.
  *
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field, or a percept above 2^20 bytes), *domain
- *         unchanged. O(1). */
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain);
 
 /* The radius of a feature. O(1). */

@@ -42,6 +42,7 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 /* domain.kind: what a ready-made domain is known by where its features must be understood (exporting). */
 #define RLVC_DOMAIN_OWN 0u /* yours */
 #define RLVC_DOMAIN_BITS 1u
+#define RLVC_DOMAIN_DESCRIPTORS 2u
 
 typedef struct rlvc_domain {
     void *ctx; /* handed to every callback, untouched */

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT */
+/* A policy on descriptors as C: see rlvc/export.h.
+ *
+ * A feature is written once, however many nodes test it: it belongs to the first of them in pre-order, and
+ * is numbered by the order of these. The detector that is written is the text of domains/descriptors.c with
+ * the number of dimensions put in, so that the same numbers are added in the same order. */
+#include "export_descriptors.h"
+
+#include <string.h>
+
+#define DIGITS 9u /* tell any two floats apart */
+#define A_LINE 8u /* numbers of a vector */
+
+/* ------------------------------------------------------------------ features */
+
+/* The first mixed node that tests the same feature, radius and all. */
+static uint32_t first_alike(const rlvc_compact *c, uint32_t node) {
+    uint32_t at = 0;
+    while (memcmp(rlvc_compact_feature(c, at), rlvc_compact_feature(c, node),
+                  c->tree->feature_bytes) != 0)
+        at = rlvc_compact_next_mixed(c, at);
+    return at;
+}
+
+/* The number of a node's feature, where `distinct` features belong to nodes before it. */
+static uint32_t feature_number(const rlvc_compact *c, uint32_t node, uint32_t distinct) {
+    const uint32_t first = first_alike(c, node);
+    if (first == node)
+        return distinct;
+    uint32_t number = 0;
+    for (uint32_t at = 0; at != first; at = rlvc_compact_next_mixed(c, at))
+        number += (uint32_t)(first_alike(c, at) == at);
+    return number;
+}
+
+void rlvc_export_descriptors_comment(rlvc_compact *c, const rlvc_descriptors *d) {
+    uint32_t node = 0, distinct = 0;
+    rlvc_compact_number(c, " * A percept is a uint32_t, the number of its vectors, at most ",
+                        d->points);
+    rlvc_compact_number(c, ", and these, of ", d->dimensions);
+    rlvc_compact_string(c, d->form == RLVC_DESCRIPTORS_INT8 ? " int8_t" : " float");
+    rlvc_compact_string(c, " each;\n * it lies at a multiple of 4. To be compiled with "
+                           "-ffp-contract=off.\n *\n");
+    do {
+        rlvc_compact_line(c, node);
+        if (rlvc_compact_is_mixed(c, node)) {
+            const uint32_t number = feature_number(c, node, distinct);
+            distinct += (uint32_t)(number == distinct);
+            rlvc_compact_number(c, "feature ", number);
+        }
+        rlvc_compact_string(c, "\n");
+        node = rlvc_compact_next(c, node);
+    } while (node != 0);
+}
+
+/* ------------------------------------------------------------------ tables */
+
+/* A constant of type float. Whole numbers below 1e9 are printed as such, and lack a point. */
+static void put_float(rlvc_compact *c, float number) {
+    const int whole = number * number < 1e18f && (float)(int32_t)number == number;
+    rlvc_text_float(&c->text, number, DIGITS);
+    rlvc_compact_string(c, whole ? ".0f" : "f");
+}
+
+static void put_byte(rlvc_compact *c, int8_t number) {
+    rlvc_compact_number(c, number < 0 ? "-" : "", (uint32_t)(number < 0 ? -number : number));
+}
+
+static void put_vector(rlvc_compact *c, const rlvc_descriptors *d, const void *feature) {
+    const unsigned char *vector = (const unsigned char *)feature + sizeof(float);
+    for (uint32_t k = 0; k < d->dimensions; k++) {
+        rlvc_compact_string(c, k % A_LINE ? ", " : k ? ",\n     " : "");
+        if (d->form == RLVC_DESCRIPTORS_INT8)
+            put_byte(c, ((const int8_t *)vector)[k]);
+        else {
+            float number;
+            memcpy(&number, vector + k * sizeof number, sizeof number);
+            put_float(c, number);
+        }
+    }
+}
+
+/* The features' radii, or else their vectors. */
+static void put_features(rlvc_compact *c, const rlvc_descriptors *d, int radii) {
+    uint32_t node = 0;
+    do {
+        if (first_alike(c, node) == node) {
+            rlvc_compact_string(c, node ? ",\n    " : "\n    ");
+            rlvc_compact_string(c, radii ? "" : "{");
+            if (radii)
+                put_float(c, rlvc_descriptors_radius(rlvc_compact_feature(c, node)));
+            else
+                put_vector(c, d, rlvc_compact_feature(c, node));
+            rlvc_compact_string(c, radii ? "" : "}");
+        }
+        node = rlvc_compact_next_mixed(c, node);
+    } while (node != 0);
+    rlvc_compact_string(c, "};\n\n");
+}
+
+/* Returns how many features there are. */
+static uint32_t put_nodes(rlvc_compact *c) {
+    uint32_t node = 0, i = 0, distinct = 0;
+    rlvc_compact_name(
+        c, rlvc_compact_fits_bytes(c) ? "static const unsigned char " : "static const unsigned ",
+        "_node");
+    rlvc_compact_number(c, "[", c->mixed);
+    rlvc_compact_string(c, "][3] = { /* feature, then which if it is absent, which if present */");
+    do {
+        const uint32_t number = feature_number(c, node, distinct);
+        distinct += (uint32_t)(number == distinct);
+        rlvc_compact_entry(c, node, i++, number);
+        node = rlvc_compact_next_mixed(c, node);
+    } while (node != 0);
+    rlvc_compact_string(c, "};\n\n");
+    return distinct;
+}
+
+static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t features) {
+    rlvc_compact_name(c, "static const float ", "_radius");
+    rlvc_compact_number(c, "[", features);
+    rlvc_compact_string(c, "] = {");
+    put_features(c, d, 1);
+    rlvc_compact_string(c, d->form == RLVC_DESCRIPTORS_INT8 ? "static const int8_t "
+                                                            : "static const float ");
+    rlvc_compact_name(c, "", "_vector");
+    rlvc_compact_number(c, "[", features);
+    rlvc_compact_number(c, "][", d->dimensions);
+    rlvc_compact_string(c, "] = {");
+    put_features(c, d, 0);
+}
+
+/* ------------------------------------------------------------------ functions */
+
+static void put_between_floats(rlvc_compact *c, uint32_t dimensions) {
+    rlvc_compact_name(c, "static inline float ",
+                      "_between(const float *a, const float *b, float limit) {\n"
+                      "    float lane[8] = {0.0f}, sum = 0.0f;\n"
+                      "    uint32_t i, k;\n"
+                      "    for (i = 0; i < ");
+    rlvc_compact_number(c, "", dimensions);
+    rlvc_compact_string(c, "u && !(sum > limit); i += k) {\n"
+                           "        for (k = 0; k < 32u && i + k < ");
+    rlvc_compact_number(c, "", dimensions);
+    rlvc_compact_string(c, "u; k++) {\n"
+                           "            const float difference = a[i + k] - b[i + k];\n"
+                           "            lane[k % 8u] += difference * difference;\n"
+                           "        }\n"
+                           "        sum = ((lane[0] + lane[4]) + (lane[2] + lane[6])) +\n"
+                           "              ((lane[1] + lane[5]) + (lane[3] + lane[7]));\n"
+                           "    }\n"
+                           "    return sum;\n"
+                           "}\n\n");
+}
+
+static void put_between_bytes(rlvc_compact *c, uint32_t dimensions) {
+    rlvc_compact_name(c, "static inline float ",
+                      "_between(const int8_t *a, const int8_t *b, float limit) {\n"
+                      "    int32_t sum = 0;\n"
+                      "    uint32_t i, k;\n"
+                      "    for (i = 0; i < ");
+    rlvc_compact_number(c, "", dimensions);
+    rlvc_compact_string(c, "u && !((float)sum > limit); i += k)\n"
+                           "        for (k = 0; k < 32u && i + k < ");
+    rlvc_compact_number(c, "", dimensions);
+    rlvc_compact_string(c, "u; k++) {\n"
+                           "            const int32_t difference = (int32_t)a[i + k] - b[i + k];\n"
+                           "            sum += difference * difference;\n"
+                           "        }\n"
+                           "    return (float)sum;\n"
+                           "}\n\n");
+}
+
+/* Whether a percept exhibits a feature. */
+static void put_present(rlvc_compact *c, const rlvc_descriptors *d) {
+    const char *type = d->form == RLVC_DESCRIPTORS_INT8 ? "int8_t" : "float";
+    rlvc_compact_name(
+        c, "static inline unsigned ",
+        "_present(const void *percept, unsigned feature) {\n    const float radius = ");
+    rlvc_compact_name(c, "", "_radius[feature], limit = radius * radius;\n    const ");
+    rlvc_compact_string(c, type);
+    rlvc_compact_string(c, " *vector = (const ");
+    rlvc_compact_string(c, type);
+    rlvc_compact_string(c, " *)((const unsigned char *)percept + 4);\n"
+                           "    uint32_t count, i;\n"
+                           "    for (i = 0; i < 4u; i++)\n"
+                           "        ((unsigned char *)&count)[i] = "
+                           "((const unsigned char *)percept)[i];\n");
+    rlvc_compact_string(c, "    for (i = 0; radius >= 0.0f && i < count; i++)\n");
+    rlvc_compact_name(c, "        if (", "_between(vector + i * ");
+    rlvc_compact_number(c, "", d->dimensions);
+    rlvc_compact_name(c, "u, ",
+                      "_vector[feature], limit) <= limit)\n"
+                      "            return 1u;\n"
+                      "    return 0;\n"
+                      "}\n\n");
+}
+
+static void put_act(rlvc_compact *c) {
+    rlvc_compact_name(c, "static inline unsigned ",
+                      "_act(const void *percept) {\n    unsigned at = 0;\n    do\n        at = ");
+    rlvc_compact_name(c, "", "_node[at][1u + ");
+    rlvc_compact_name(c, "", "_present(percept, ");
+    rlvc_compact_name(c, "", "_node[at][0])];\n    while (at < ");
+    rlvc_compact_number(c, "", c->mixed);
+    rlvc_compact_number(c, "u);\n    return at - ", c->mixed);
+    rlvc_compact_string(c, "u;\n}\n");
+}
+
+uint32_t rlvc_export_descriptors(rlvc_compact *c, const rlvc_descriptors *d) {
+    if (c->mixed == 0) {
+        rlvc_compact_constant(c, "const void *percept");
+        return 0;
+    }
+    rlvc_compact_string(c, "#include <stdint.h>\n\n");
+    const uint32_t features = put_nodes(c);
+    put_tables(c, d, features);
+    if (d->form == RLVC_DESCRIPTORS_INT8)
+        put_between_bytes(c, d->dimensions);
+    else
+        put_between_floats(c, d->dimensions);
+    put_present(c, d);
+    put_act(c);
+    return c->mixed * (rlvc_compact_fits_bytes(c) ? 3u : 12u) +
+           features * (4u + RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form));
+}
