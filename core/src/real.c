@@ -1,19 +1,36 @@
 /* SPDX-License-Identifier: MIT */
-/* Elementary functions in binary32: those that are not called often. See real.h. */
+/* Elementary functions in binary32: see real.h. */
 #include "real.h"
 
 #include "assert.h"
+
+#define SQRT_HALF_BITS 0x3f3504f3u
 
 /* 2^e as a float, for e in [-126, 127]. */
 static float power_of_two(int32_t e) {
     return rlvc_float_of((uint32_t)(e + 127) << 23);
 }
 
+/* 2 artanh(s) = ln((1 + s) / (1 - s)) for |s| < 0.1716. */
+static float artanh_twice(float s) {
+    float square = s * s;
+    float twice = s + s;
+    float series = 0.333333333f + square * (0.2f + square * (0.142857143f + square * 0.111111111f));
+    return twice + twice * (square * series);
+}
+
+float rlvc_ln(float x) {
+    int32_t e;
+    float m = rlvc_take_apart(x, SQRT_HALF_BITS, &e);
+    float ln_m = artanh_twice((m - 1.0f) / (m + 1.0f));
+    return (float)e * RLVC_LN2_HIGH + ((float)e * RLVC_LN2_LOW + ln_m);
+}
+
 float rlvc_ln_1_minus(float q) {
     RLVC_ASSERT(q >= 0.0f && q < 1.0f);
     /* 1 - q = (1 - s) / (1 + s) with s = q / (2 - q), so that small q never meet a rounded 1 - q.
      */
-    return q < 0.25f ? -rlvc_artanh_twice(q / (2.0f - q)) : rlvc_ln(1.0f - q);
+    return q < 0.25f ? -artanh_twice(q / (2.0f - q)) : rlvc_ln(1.0f - q);
 }
 
 float rlvc_scale(float x, int32_t e) {

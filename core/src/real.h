@@ -9,9 +9,8 @@
  *     exp(x)      = 2^n exp(x - n ln 2),  n the integer nearest to x / ln 2.
  *
  * m - 1 is exact and e is 0 around 1, hence logarithms are accurate relative to themselves there
- * too. The logarithms are inline and free of branches, for the search evaluates the score very
- * often. Largest relative errors found in sweeps over the floats: ln 1.8e-7, log2 2.3e-7,
- * ln_1_minus 2.4e-7, exp and sqrt 0.9e-7. */
+ * too. ln is free of branches, for the search evaluates the score very often. Largest relative errors
+ * found in sweeps over the floats: ln 1.8e-7, ln_1_minus 2.4e-7, exp and sqrt 0.9e-7. */
 #ifndef RLVC_SRC_REAL_H
 #define RLVC_SRC_REAL_H
 
@@ -48,30 +47,8 @@ static inline float rlvc_take_apart(float x, uint32_t least_bits, int32_t *e) {
     return rlvc_float_of((shifted & 0x007fffffu) + least_bits);
 }
 
-/* 2 artanh(s) = ln((1 + s) / (1 - s)) for |s| < 0.1716. */
-static inline float rlvc_artanh_twice(float s) {
-    float square = s * s;
-    float twice = s + s;
-    float series = 0.333333333f + square * (0.2f + square * (0.142857143f + square * 0.111111111f));
-    return twice + twice * (square * series);
-}
-
-#define RLVC_SQRT_HALF_BITS 0x3f3504f3u
-
 /* Natural logarithm of a positive normal x. */
-static inline float rlvc_ln(float x) {
-    int32_t e;
-    float m = rlvc_take_apart(x, RLVC_SQRT_HALF_BITS, &e);
-    float ln_m = rlvc_artanh_twice((m - 1.0f) / (m + 1.0f));
-    return (float)e * RLVC_LN2_HIGH + ((float)e * RLVC_LN2_LOW + ln_m);
-}
-
-/* Logarithm to the base 2 of a positive normal x; exact at powers of two. */
-static inline float rlvc_log2(float x) {
-    int32_t e;
-    float m = rlvc_take_apart(x, RLVC_SQRT_HALF_BITS, &e);
-    return (float)e + rlvc_artanh_twice((m - 1.0f) / (m + 1.0f)) * RLVC_LOG2_E;
-}
+float rlvc_ln(float x);
 
 /* ln(1 - q) for q in [0, 1), accurate relative to itself for small q too. */
 float rlvc_ln_1_minus(float q);

@@ -11,14 +11,6 @@
 #include "golden.h"
 #include "real.h"
 
-static float ln(float x) {
-    return rlvc_ln(x);
-}
-
-static float log_2(float x) {
-    return rlvc_log2(x);
-}
-
 /* In the order of the golden file's first column. */
 static const struct {
     const char *name;
@@ -27,8 +19,7 @@ static const struct {
     float sign;      /* of the arguments */
     float below;     /* their size */
 } functions[] = {
-    {"ln", ln, 1.9e-7, 1.0f, INFINITY},
-    {"log2", log_2, 2.5e-7, 1.0f, INFINITY},
+    {"ln", rlvc_ln, 1.9e-7, 1.0f, INFINITY},
     {"sqrt", rlvc_sqrt, 1.2e-7, 1.0f, INFINITY},
     {"exp", rlvc_exp, 1.2e-7, -1.0f, INFINITY},
     {"ln_1_minus", rlvc_ln_1_minus, 2.6e-7, 1.0f, 1.0f},
@@ -58,10 +49,6 @@ static void test_exact_values(void **state) {
     assert_true(rlvc_exp(-104.5f) == 0.0f);
     assert_true(rlvc_exp(-1e30f) == 0.0f);
     assert_true(rlvc_ln_1_minus(0.0f) == 0.0f);
-    for (int e = -126; e <= 127; e++) {
-        float power = rlvc_float_of((uint32_t)(e + 127) << 23);
-        assert_true(rlvc_log2(power) == (float)e);
-    }
 }
 
 static void test_scale(void **state) {
@@ -97,8 +84,7 @@ static void test_exp_apart(void **state) {
 
 static void test_same_bits_everywhere(void **state) {
     (void)state;
-    static const uint32_t pinned[] = {0x1cf07d1bu, 0x02a4c1e9u, 0xf98e38fdu, 0x14b45eeeu,
-                                      0xc4179da0u};
+    static const uint32_t pinned[] = {0x1cf07d1bu, 0xf98e38fdu, 0x14b45eeeu, 0xc4179da0u};
     for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
         uint32_t all = DIGEST_START;
         for (uint32_t bits = 0x00800000u; bits < rlvc_bits_of(functions[i].below); bits += 20011u)

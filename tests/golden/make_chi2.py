@@ -86,7 +86,7 @@ def table():
 
 def real():
     """Logarithms over the normal floats, dense about 1; exp down to the least float."""
-    functions = {"ln": mpmath.log, "log2": lambda x: mpmath.log(x, 2), "sqrt": mpmath.sqrt}
+    functions = {"ln": mpmath.log, "sqrt": mpmath.sqrt}
     about_1 = [1 + sign * 2.0**-n for n in range(1, 24) for sign in (1, -1)]
     wide = [1.7**n for n in range(-164, 167, 3)] + [2.0**n for n in (-126, -1, 0, 1, 127)]
     for name, function in functions.items():
@@ -102,7 +102,7 @@ def real():
 def write_real():
     with open(HERE / "real.csv", "w", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
-        names = ("ln", "log2", "sqrt", "exp", "ln_1_minus")
+        names = ("ln", "sqrt", "exp", "ln_1_minus")
         out.writerow(["function (" + " ".join(f"{i} {n}" for i, n in enumerate(names)) + ")", "x", "y"])
         for name, x, y in real():
             out.writerow([names.index(name), "%.9g" % x, "%.12g" % y])

@@ -12,11 +12,11 @@ import subprocess
 import sys
 import tempfile
 
+import committed
 import stack
+from committed import ROOT, sources
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "core/SIZE.md"
-SKIPPED = 77
 
 TARGETS = {  # name: prefix, options of the processor
     "M0": ("arm-none-eabi-", ["-mthumb", "-mcpu=cortex-m0"]),
@@ -27,14 +27,10 @@ TARGETS = {  # name: prefix, options of the processor
 }
 PICOLIBC = "--specs=picolibc.specs"
 FLAGS = ["-std=c99", "-ffp-contract=off", "-ffunction-sections", "-fdata-sections", PICOLIBC]
-FLASH_MAX = 20 * 1024  # of the library without printing, on the M3
+FLASH_MAX = 20 * 1024  # of the library without printing and of the helpers, on the M3 by -Os
 RAM_MAX = 32 * 1024    # of learning the Binary Gridworld there
+LEVELS = ("-O2", "-Os", "-Os -flto")
 HELPER_STACK = 64      # granted to a function of the compiler's own library
-
-
-def sources():
-    return sorted(path for folder in ("src", "domains")
-                  for path in (ROOT / "core" / folder).glob("*.c"))
 
 
 def run(*command):
@@ -48,7 +44,7 @@ def compile_core(target, level, folder):
     for source in sources():
         name = f"{source.parent.name}/{source.stem}"
         objects[name] = folder / f"{target}{level}_{source.parent.name}_{source.stem}.o"
-        run(prefix + "gcc", *FLAGS, *options, level, "-fstack-usage", "-fcallgraph-info=su",
+        run(prefix + "gcc", *FLAGS, *options, *level.split(), "-fstack-usage", "-fcallgraph-info=su",
             f"-I{ROOT}/core/include", "-c", source, "-o", objects[name])
     return objects
 
@@ -112,7 +108,7 @@ def linked(target, level, objects, folder):
                               ("helpers", HELPERS, []), ("learner", LEARNER, objects.values())):
         source, image = folder / f"{name}.c", folder / f"{name}.elf"
         source.write_text(text, encoding="utf-8")
-        run(prefix + "gcc", *FLAGS, *options, level, f"-I{ROOT}/core/include", "--crt0=minimal",
+        run(prefix + "gcc", *FLAGS, *options, *level.split(), f"-I{ROOT}/core/include", "--crt0=minimal",
             "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000",
             "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x80200000",
             "-Wl,--defsym=__ram_size=0x10000", source, *parts, "-o", image)
@@ -182,9 +178,8 @@ def stack_table(objects):
 
 def table(folder, compilers):
     objects = {target: compile_core(target, "-O2", folder) for target in TARGETS}
-    small = {target: compile_core(target, "-Os", folder) for target in ("M0", "M3")}
-    flash = {"-O2": {target: linked(target, "-O2", objects[target], folder) for target in TARGETS},
-             "-Os": {target: linked(target, "-Os", small[target], folder) for target in small}}
+    flash = {level: {target: linked(target, level, compile_core(target, level, folder), folder)
+                     for target in TARGETS} for level in LEVELS}
     memory, block = image_memory(folder)
     yield f"""# Size on microcontrollers
 
@@ -196,14 +191,16 @@ has writable data.
 
 What the linker keeps of the library in a program that learns by bits and does not print. Beside it
 stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
-division). On the M3 the library may take {FLASH_MAX:,} with -Os.
+division). On the M3, by -Os, both together may take {FLASH_MAX:,}; link-time optimisation (-flto) takes off
+some more.
 
 | | {' | '.join(TARGETS)} |
 |---|{'--:|' * len(TARGETS)}"""
     for level, sizes in flash.items():
-        for number, what in enumerate(("library", "helpers")):
+        for what, size in (("library", lambda pair: pair[0]), ("helpers", lambda pair: pair[1]),
+                           ("together", sum)):
             yield f"| {level}, {what} | " + " | ".join(
-                f"{sizes[target][number]:,}" if target in sizes else "" for target in TARGETS) + " |"
+                f"{size(sizes[target]):,}" for target in TARGETS) + " |"
     yield f"""
 ## Memory of the firmware example
 
@@ -228,8 +225,8 @@ With `-O2`, the callbacks that it calls not counted; {HELPER_STACK} are granted 
 library.
 """
     yield from stack_table(objects)
-    if flash["-Os"]["M3"][0] > FLASH_MAX or memory + 2048 > RAM_MAX:
-        print(f"too large: {flash['-Os']['M3'][0]} bytes of flash, {memory + 2048} of memory",
+    if sum(flash["-Os"]["M3"]) > FLASH_MAX or memory + 2048 > RAM_MAX:
+        print(f"too large: {sum(flash['-Os']['M3'])} bytes of flash, {memory + 2048} of memory",
               file=sys.stderr)
         raise SystemExit(1)
 
@@ -243,22 +240,12 @@ def main():
     missing = [prefix for prefix in prefixes if not shutil.which(prefix + "gcc")]
     if missing:
         print("skipped: there is no " + ", ".join(prefix + "gcc" for prefix in missing))
-        return SKIPPED
+        return committed.SKIPPED
     compilers = " and ".join(f"{prefix}gcc {run(prefix + 'gcc', '-dumpfullversion').strip()}"
                              for prefix in prefixes)
     with tempfile.TemporaryDirectory() as folder:
         text = "\n".join(table(pathlib.Path(folder), compilers)) + "\n"
-    if arguments.write:
-        TABLE.write_text(text, encoding="utf-8")
-        return 0
-    committed = TABLE.read_text(encoding="utf-8") if TABLE.exists() else ""
-    if committed == text:
-        return 0
-    if committed and f"\n{compilers};" not in committed:
-        print(f"skipped: the figures are of other compilers than {compilers}")
-        return SKIPPED
-    print("core/SIZE.md is stale: run tools/check/size.py --write", file=sys.stderr)
-    return 1
+    return committed.settle(TABLE, text, f"\n{compilers};", arguments.write)
 
 
 if __name__ == "__main__":

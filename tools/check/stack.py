@@ -15,9 +15,10 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+import committed
+from committed import ROOT
+
 TABLE = ROOT / "core/STACK.md"
-SKIPPED = 77  # what ctest takes for "skipped"
 
 FLAGS = ["-std=c99", "-ffp-contract=off", "-mno-red-zone", "-fno-stack-protector",
          "-fcf-protection=none", "-fstack-usage", "-fcallgraph-info=su"]
@@ -173,9 +174,8 @@ def main():
                              text=True).stdout.strip()
     if not machine.startswith("x86_64"):
         print(f"the table is of x86-64, and gcc here makes code for {machine}")
-        return SKIPPED
-    sources = sorted(path for folder in ("src", "domains")
-                     for path in (ROOT / "core" / folder).glob("*.c"))
+        return committed.SKIPPED
+    sources = committed.sources()
     with tempfile.TemporaryDirectory() as folder:
         plain = Graph(sources, ["-O0"], pathlib.Path(folder))
         optimised = Graph(sources, ["-O2"], pathlib.Path(folder))
@@ -187,18 +187,8 @@ def main():
     if faults:
         return 1
 
-    text = "\n".join(table(plain, optimised, compiler)) + "\n"
-    if arguments.write:
-        TABLE.write_text(text, encoding="utf-8")
-        return 0
-    committed = TABLE.read_text(encoding="utf-8") if TABLE.exists() else ""
-    if committed == text:
-        return 0
-    if committed and f"gcc {compiler}," not in committed:
-        print(f"no recursion and the like; the figures are of another compiler than gcc {compiler}")
-        return SKIPPED
-    print("core/STACK.md is stale: run tools/check/stack.py --write", file=sys.stderr)
-    return 1
+    return committed.settle(TABLE, "\n".join(table(plain, optimised, compiler)) + "\n",
+                            f"gcc {compiler},", arguments.write)
 
 
 if __name__ == "__main__":
