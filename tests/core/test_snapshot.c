@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Snapshots: what is saved at any moment resumes bit for bit, whatever happens to the power, the store and
- * the bytes. RLVC_WRITE_GOLDEN=1 in the environment makes the golden snapshots anew. */
+/* Snapshots: what is saved at any moment resumes bit for bit, whatever happens to the store and the bytes
+ * (test_powercut.c has what happens to the power). RLVC_WRITE_GOLDEN=1 in the environment makes the golden
+ * snapshots anew. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,15 +9,13 @@
 
 #include <cmocka.h>
 
-#include "player.h"
+#include "snapshots.h"
 #include "state.h"
-#include "store.h"
 
 #include <stdlib.h>
 
-static player p, other;
-static medium m, spare;
 static player_result expected, got;
+static content older, newer;
 
 /* ------------------------------------------------------------------ helpers */
 
@@ -55,52 +54,6 @@ static void prepare(const kind *k) {
     p.config.min_samples = 4;
     p.config.capacity = 900;
     player_init(&p);
-}
-
-/* An agent whose snapshots are short. */
-static void prepare_holding(uint32_t capacity) {
-    player_enter_world(&p, BATCH);
-    p.config.capacity = capacity;
-    p.config.classes = 5;
-    p.config.min_samples = 4;
-    p.config.alpha = 1.0f;
-    player_init(&p);
-}
-
-static void prepare_small(void) {
-    prepare_holding(30);
-}
-
-static rlvc_status load(player *to, const rlvc_store *store) {
-    to->config = p.config;
-    to->domain = p.domain;
-    to->bytes = p.bytes;
-    to->faulty = p.faulty;
-    to->domain.ctx = &to->faulty;
-    memset(to->block, CANARY, to->bytes + 64u);
-    rlvc_status status =
-        rlvc_load(&to->config, &to->domain, to->block, to->bytes, store, &to->agent);
-    assert_true((status == RLVC_OK) == (to->agent != NULL));
-    for (size_t i = to->bytes; i < to->bytes + 64u; i++)
-        assert_int_equal(((const unsigned char *)to->block)[i], CANARY);
-    return status;
-}
-
-/* The content of a snapshot of the agent as it is now. */
-typedef struct content {
-    uint32_t bytes;
-    unsigned char byte[MEDIUM_BYTES / 2];
-} content;
-
-static void content_of(player *of, content *c) {
-    rlvc_store store = medium_store(&spare, &of->config, &of->domain, 0);
-    assert_int_equal(rlvc_save(of->agent, &store), RLVC_OK);
-    c->bytes = snapshot_bytes(spare.bytes);
-    memcpy(c->byte, spare.bytes, c->bytes);
-}
-
-static int same_content(const content *a, const content *b) {
-    return a->bytes == b->bytes && memcmp(a->byte, b->byte, a->bytes) == 0;
 }
 
 /* ------------------------------------------------------------------ resuming */
@@ -184,110 +137,6 @@ static void test_resume_every_slice(void **state) {
     }
 }
 
-/* ------------------------------------------------------------------ power cuts */
-
-typedef struct cuts {
-    content older, newer;
-    medium before; /* the save */
-    gridworld world;
-    uint8_t playing;
-} cuts;
-
-static cuts c;
-static uint32_t early;
-
-/* What happens between two saves. */
-static void live(player *of, uint32_t cycle) {
-    rlvc_progress progress;
-    if (of->agent->learner.phase == 0)
-        player_play(of, 8);
-    assert_int_equal(rlvc_learn(of->agent, 64u + cycle % 7u * 100u, &progress), RLVC_OK);
-}
-
-/* Loads what a cut has left; *after: the save was over before it. */
-static void after_cut(const rlvc_store *store, uint32_t cycle, uint64_t cut, int after) {
-    static content loaded;
-    medium_revive(&m);
-    assert_int_equal(load(&other, store), RLVC_OK);
-    content_of(&other, &loaded);
-    /* If the last bytes of the CRC stood there already, by chance, the save is over before its end. */
-    int newer = same_content(&loaded, &c.newer);
-    early += newer && !after;
-    if (!newer && (after || !same_content(&loaded, &c.older)))
-        fail_msg("cycle %u, cut at byte %u: the agent loaded is neither of the two",
-                 (unsigned)cycle, (unsigned)cut);
-    after = newer;
-    if (after || cut % 97u != 0)
-        return;
-    other.world = c.world;
-    other.playing = c.playing;
-    live(&other, cycle);
-    content_of(&other, &loaded);
-    assert_true(same_content(&loaded, &c.newer));
-}
-
-static void test_power_cuts(void **state) {
-    (void)state;
-    uint64_t cut = 0, points = 0;
-    for (int flash = 0; flash < 2; flash++) {
-        prepare_small();
-        rlvc_store store = medium_store(&m, &p.config, &p.domain, flash);
-        assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
-        for (uint32_t cycle = 0; cycle < 100; cycle++) {
-            content_of(&p, &c.older);
-            c.world = p.world;
-            c.playing = p.playing;
-            live(&p, cycle);
-            content_of(&p, &c.newer);
-            c.before = m;
-            for (cut = 0;; cut += flash && cut + 16u < store.slot_bytes ? 16u : 1u) {
-                rlvc_status status;
-                m = c.before;
-                m.power = m.written + cut;
-                status = rlvc_save(p.agent, &store);
-                if (status == RLVC_OK)
-                    break;
-                assert_int_equal(status, RLVC_E_STORE);
-                after_cut(&store, cycle, cut, 0);
-                points++;
-            }
-            after_cut(&store, cycle, cut, 1);
-        }
-        assert_true(player_stats(&p).classes > 1);
-        assert_true(m.syncs > 0);
-    }
-    assert_true(points > 200u * 700u);
-    assert_true(early < 10);
-}
-
-/* After a cut, saving goes on: into the slot that was torn, not into the one that is whole. */
-static void test_save_after_cut(void **state) {
-    (void)state;
-    prepare_small();
-    rlvc_store store = medium_store(&m, &p.config, &p.domain, 1);
-    rlvc_snapshot_info info;
-    assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
-    assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
-    m.power = m.written + store.slot_bytes + 100u;
-    assert_int_equal(rlvc_save(p.agent, &store), RLVC_E_STORE);
-    medium_revive(&m);
-    assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_OK);
-    assert_int_equal(info.sequence, 2);
-    assert_int_equal(info.slot, 1);
-    assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
-    assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_OK);
-    assert_int_equal(info.sequence, 3);
-    assert_int_equal(info.slot, 0);
-    /* The newest rots: the older one counts, and the next goes over the rotten one. */
-    medium_slot(&store, 0)[200] ^= 1u;
-    assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_OK);
-    assert_int_equal(info.sequence, 2);
-    assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
-    assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_OK);
-    assert_int_equal(info.slot, 0);
-    assert_int_equal(info.sequence, 3);
-}
-
 static void test_sequence_comes_round(void **state) {
     (void)state;
     prepare_small();
@@ -312,11 +161,11 @@ static rlvc_store two_snapshots(uint32_t interactions, uint32_t slices) {
     prepare_holding(interactions + 20u);
     rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
     player_play(&p, interactions);
-    content_of(&p, &c.older);
+    content_of(&p, &older);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     for (uint32_t i = 0; i < slices; i++)
         assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
-    content_of(&p, &c.newer);
+    content_of(&p, &newer);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     return store;
 }
@@ -328,11 +177,11 @@ static void test_bit_flips(void **state) {
     rlvc_store store = two_snapshots(30, 9);
     for (uint32_t slot = 0; slot < 2; slot++) {
         unsigned char *snapshot = medium_slot(&store, slot);
-        for (uint32_t bit = 0; bit < 8u * (slot ? c.newer.bytes : c.older.bytes); bit++) {
+        for (uint32_t bit = 0; bit < 8u * (slot ? newer.bytes : older.bytes); bit++) {
             snapshot[bit / 8u] ^= (unsigned char)(1u << bit % 8u);
             assert_int_equal(load(&other, &store), RLVC_OK);
             content_of(&other, &loaded);
-            assert_true(same_content(&loaded, slot ? &c.older : &c.newer));
+            assert_true(same_content(&loaded, slot ? &older : &newer));
             medium_slot(&store, 1u - slot)[77] ^= 1u;
             rlvc_status status = load(&other, &store);
             assert_true(status == RLVC_E_DAMAGED || status == RLVC_E_EMPTY);
@@ -370,7 +219,7 @@ static void test_forgery(void **state) {
     for (uint32_t slices = 0; slices < 60; slices += 5) {
         rlvc_store store = two_snapshots(30, slices);
         unsigned char *snapshot = medium_slot(&store, 1);
-        for (uint32_t bit = 8u * 16u; bit < 8u * (c.newer.bytes - 4u); bit += 1u + slices % 7u) {
+        for (uint32_t bit = 8u * 16u; bit < 8u * (newer.bytes - 4u); bit += 1u + slices % 7u) {
             snapshot[bit / 8u] ^= (unsigned char)(1u << bit % 8u);
             snapshot_mend(snapshot);
             accepted += try_anything(&store);
@@ -538,9 +387,9 @@ static void test_resume_without_data(void **state) {
             assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
             assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
             assert_int_equal(load(&other, &store), RLVC_OK);
-            content_of(&p, &c.older);
-            content_of(&other, &c.newer);
-            assert_true(same_content(&c.older, &c.newer));
+            content_of(&p, &older);
+            content_of(&other, &newer);
+            assert_true(same_content(&older, &newer));
         } while (!progress.done);
     }
 }
@@ -555,7 +404,7 @@ static void test_versions_and_mismatches(void **state) {
     assert_int_equal(load_forged(&store, AT_VERSION, 0, 4), RLVC_E_VERSION);
     assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_OK);
     assert_int_equal(info.version, RLVC_SNAPSHOT_VERSION);
-    assert_int_equal(info.bytes, c.newer.bytes);
+    assert_int_equal(info.bytes, newer.bytes);
     assert_int_equal(info.percept_bytes, 1);
     assert_int_equal(info.feature_bytes, 2);
     assert_memory_equal(&info.config, &p.config, sizeof info.config);
@@ -647,13 +496,13 @@ static void test_failing_store(void **state) {
         prepare_small();
         rlvc_store store = medium_store(&m, &p.config, &p.domain, flash);
         player_play(&p, 30);
-        content_of(&p, &c.older);
+        content_of(&p, &older);
         assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
         player_play(&p, 3);
         rlvc_status status = RLVC_E_STORE;
-        c.before = m;
+        const medium before = m;
         for (uint32_t n = 1; status != RLVC_OK; n++) {
-            m = c.before;
+            m = before;
             m.calls = 0;
             m.fail_at = n;
             status = rlvc_save(p.agent, &store);
@@ -663,8 +512,8 @@ static void test_failing_store(void **state) {
             assert_int_equal(load(&other, &store), RLVC_OK);
             content_of(&other, &loaded);
             /* After a failed sync nobody knows: it is the newer one here. */
-            if (status != RLVC_OK && n + 1u < c.before.calls)
-                assert_true(same_content(&loaded, &c.older) || m.syncs > 1u);
+            if (status != RLVC_OK && n + 1u < before.calls)
+                assert_true(same_content(&loaded, &older) || m.syncs > 1u);
         }
         status = RLVC_E_STORE;
         for (uint32_t n = 1; status != RLVC_OK; n++) {
@@ -780,8 +629,6 @@ int main(void) {
         cmocka_unit_test(test_crc),
         cmocka_unit_test(test_resume_anywhere),
         cmocka_unit_test(test_resume_every_slice),
-        cmocka_unit_test(test_power_cuts),
-        cmocka_unit_test(test_save_after_cut),
         cmocka_unit_test(test_sequence_comes_round),
         cmocka_unit_test(test_bit_flips),
         cmocka_unit_test(test_forgery),
