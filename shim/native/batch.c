@@ -18,14 +18,13 @@ rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *percepts, 
     return status;
 }
 
-rlvc_status rlvc_shim_act(rlvc_agent *agent, const unsigned char *percepts, uint32_t bytes,
-                          size_t count, rlvc_choice *choices, size_t *done) {
+rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done) {
     rlvc_status status = RLVC_OK;
     size_t i = 0;
-    for (; i < count; i++) {
-        status = rlvc_begin(agent, percepts + i * bytes);
+    for (; i < log->count; i++) {
+        status = rlvc_begin(agent, log->percepts + i * log->bytes);
         if (status == RLVC_OK)
-            status = rlvc_act(agent, choices + i);
+            status = rlvc_act(agent, log->choices + i);
         if (status != RLVC_OK)
             break;
     }
@@ -49,8 +48,7 @@ static int linked_to_next(const rlvc_shim_log *log, size_t i) {
                0;
 }
 
-rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, uint8_t resume,
-                              size_t *done) {
+rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done) {
     for (size_t i = 0; i < log->count; i++) {
         rlvc_status status = check(log, i);
         if (status != RLVC_OK) {
@@ -59,7 +57,7 @@ rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, uint8
         }
     }
     rlvc_status status = RLVC_OK;
-    int linked = resume;
+    int linked = log->resume == 1;
     size_t i = 0;
     for (; i < log->count; i++) {
         if (!linked)

@@ -104,6 +104,7 @@ static const rlvc_shim_entry layout[] = {
     FIELD(rlvc_shim_log, count),
     FIELD(rlvc_shim_log, bytes),
     FIELD(rlvc_shim_log, actions),
+    FIELD(rlvc_shim_log, resume),
     SIZE(gridworld_maze),
     FIELD(gridworld_maze, width),
     FIELD(gridworld_maze, height),

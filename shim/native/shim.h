@@ -29,28 +29,26 @@ RLVC_API rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *p
                                        uint32_t bytes, size_t count, uint32_t *classes,
                                        uint32_t *actions, size_t *done);
 
-/* rlvc_begin and rlvc_act for each of `count` percepts, that of each environment of a vector.
- * @param choices [count] */
-RLVC_API rlvc_status rlvc_shim_act(rlvc_agent *agent, const unsigned char *percepts, uint32_t bytes,
-                                   size_t count, rlvc_choice *choices, size_t *done);
-
 /* Interactions, as arrays of `count` elements. */
 typedef struct rlvc_shim_log {
     const unsigned char *percepts, *next; /* `bytes` each */
-    const rlvc_choice *choices;
+    rlvc_choice *choices;
     const float *rewards;
     const uint8_t *ends;
     size_t count;
     uint32_t bytes;
     uint32_t actions;
+    uint32_t resume; /* 1: the first goes on from the agent's current percept; 0: it begins an episode */
 } rlvc_shim_log;
+
+/* rlvc_begin and rlvc_act for each percept, that of each environment of a vector: fills log->choices.
+ * Looks at percepts, count and bytes alone. */
+RLVC_API rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
 
 /* rlvc_observe for each interaction of a log. Where one goes on and the next begins at the very percept
  * that it led to, they are of one episode; else the next one begins an episode. All are looked at
- * before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done.
- * @param resume 1: the first goes on from the agent's current percept; 0: it begins an episode */
-RLVC_API rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, uint8_t resume,
-                                       size_t *done);
+ * before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done. */
+RLVC_API rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
 
 /* The last solution, as tables.
  * @param q, samples    [classes][actions]

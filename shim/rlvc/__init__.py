@@ -7,17 +7,20 @@ learning".
 """
 
 from ._version import __version__
-from .agent import CHOICE, Agent, Choice, Prediction, Progress, Split, Statistics
+from .agent import Agent
+from .batch import Batch
 from .config import Config
 from .domain import Bits, Descriptors, Domain
 from .encode import Encoder
 from .errors import Error
 from .learning import Record, Run, learn
 from .logs import learn_from
+from .results import CHOICE, Choice, Prediction, Progress, Split, Statistics
 
 __all__ = [
     "CHOICE",
     "Agent",
+    "Batch",
     "Bits",
     "Choice",
     "Config",

@@ -203,6 +203,7 @@ class Log(c.Structure):
         ("count", c.c_size_t),
         ("bytes", c.c_uint32),
         ("actions", c.c_uint32),
+        ("resume", c.c_uint32),
     ]
 
 
@@ -317,8 +318,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     # native/shim.h
     "rlvc_shim_layout": (c.POINTER(_Entry), []),
     "rlvc_shim_predict": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P, _P]),
-    "rlvc_shim_act": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P]),
-    "rlvc_shim_observe": (c.c_int, [_P, _P, c.c_uint8, _P]),
+    "rlvc_shim_act": (c.c_int, [_P, _P, _P]),
+    "rlvc_shim_observe": (c.c_int, [_P, _P, _P]),
     "rlvc_shim_tables": (c.c_int, [_P, _U32, _U32, _P, _P, _P, _P]),
     "rlvc_shim_empty_act": (c.c_int, [_P, _P]),
     "rlvc_shim_empty_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),

@@ -4,202 +4,33 @@
 from __future__ import annotations
 
 import ctypes
-import dataclasses
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Literal, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _lib
-from .config import Config, to_native
-from .domain import Bits, Domain, Guard, Percept
-from .errors import (
-    ArrayError,
-    BlockError,
-    BusyError,
-    CallbackError,
-    ClosedError,
-    ConfigError,
-    Error,
-    OrderError,
-    PerceptError,
-    RangeError,
-    ReenteredError,
-    RewardError,
-    SnapshotError,
-    StoreError,
-)
+from .batch import Batch, native_log
+from .config import Config
+from .domain import Bits, Domain, Percept
+from .errors import RangeError, ReenteredError, RewardError, SnapshotError
+from .looking import Looking
+from .results import CHOICE, Choice, Progress
 from .snapshot import MemoryStore, read_file, write_file
-
-_ERRORS: dict[int, type[Error]] = {
-    _lib.E_CONFIG: ConfigError,
-    _lib.E_MEMORY: BlockError,
-    _lib.E_ORDER: OrderError,
-    _lib.E_RANGE: RangeError,
-    _lib.E_REWARD: RewardError,
-    _lib.E_BUSY: BusyError,
-    _lib.E_CALLBACK: CallbackError,
-    _lib.E_REENTERED: ReenteredError,
-    _lib.E_STORE: StoreError,
-    _lib.E_EMPTY: SnapshotError,
-    _lib.E_DAMAGED: SnapshotError,
-    _lib.E_VERSION: SnapshotError,
-    _lib.E_MISMATCH: SnapshotError,
-}
-
-CHOICE = np.dtype([("action", np.uint8), ("exploited", np.uint8)])
-"""Of the arrays of choices: ``rlvc_choice``."""
 
 _SLICE = 1 << 20  # of learning, between two looks at Ctrl-C: some milliseconds
 
 _begin = _lib.call.rlvc_begin
 _act = _lib.call.rlvc_act
 _observe = _lib.call.rlvc_observe
-_predict = _lib.call.rlvc_predict
 _byref = ctypes.byref
 _new = tuple.__new__
 _NOTHING = object()
 
-_DTYPES = {name: np.dtype(name) for name in ("float32", "uint8", "uint32", "bool")}
 
-
-class Choice(NamedTuple):
-    """What was done, and why.
-
-    Attributes
-    ----------
-    action : int
-        [0, actions).
-    exploited : bool
-        Whether it is the greedy action of the agent's policy, chosen because it is.
-    """
-
-    action: int
-    exploited: bool
-
-
-class Prediction(NamedTuple):
-    """The class of a percept and its greedy action.
-
-    Attributes
-    ----------
-    class_id : int, or ndarray of uint32 [n]
-    action : int, or ndarray of uint32 [n]
-    """
-
-    class_id: Any
-    action: Any
-
-
-class Progress(NamedTuple):
-    """How far a learning step is.
-
-    Attributes
-    ----------
-    work : int
-        Samples looked at by this call.
-    rounds : int
-        Rounds of refinement begun in this step so far.
-    splits : int
-        Splits made in this step so far.
-    done : bool
-        Whether the step is finished.
-    """
-
-    work: int
-    rounds: int
-    splits: int
-    done: bool
-
-
-@dataclasses.dataclass(frozen=True)
-class Statistics:
-    """Numbers about an agent.
-
-    Attributes
-    ----------
-    interactions : int
-        Observed since the agent was made.
-    stored : int
-        Of these, still in the ring.
-    step : int
-        k: learning steps finished.
-    classes : int
-        Leaves of the tree.
-    depth : int
-        Tests on its longest path.
-    last_split : int
-        The step k at which the newest split was made; 0 if none.
-    refused : int
-        Splits that proved real but found the tree full.
-    sweeps : int
-        Of the last solution.
-    residual : float
-        Of the last solution, in units of reward: max |V_new - V_old| of its last sweep.
-    """
-
-    interactions: int
-    stored: int
-    step: int
-    classes: int
-    depth: int
-    last_split: int
-    refused: int
-    sweeps: int
-    residual: float
-
-
-@dataclasses.dataclass(frozen=True)
-class Split:
-    """One split of the tree: percepts with the feature got a new class.
-
-    Attributes
-    ----------
-    index : int
-        j: its place in the order of splits. The new class is j + 1.
-    class_id : int
-        The class that was split; it keeps the percepts without the feature.
-    feature : scalar of the domain's feature_dtype
-    name : str
-        The feature's name.
-    step : int
-        k at that time.
-    action : int or None
-        Whose targets betrayed the aliasing; None if those of all actions did together.
-    samples : int
-        Of that class and action, or of the class.
-    log_tests, score, log_p : float
-        ln of the number of tests corrected for; the score; ln of the corrected p-value.
-    """
-
-    index: int
-    class_id: int
-    feature: Any
-    name: str
-    step: int
-    action: int | None
-    samples: int
-    log_tests: float
-    score: float
-    log_p: float
-
-
-def _checked(array: Any, name: str, dtype: str, shape: tuple[int, ...]) -> npt.NDArray[Any]:
-    """Make sure that an array is what C takes it for."""
-    if not isinstance(array, np.ndarray):
-        raise ArrayError(f"{name}: an array is wanted, not {type(array).__name__}")
-    if array.dtype != _DTYPES[dtype] or array.shape != shape:
-        raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, not {dtype}{list(shape)}")
-    if not array.flags.c_contiguous:
-        raise ArrayError(f"{name}: not C-contiguous: numpy.ascontiguousarray makes it so")
-    return array
-
-
-class Agent:
+class Agent(Looking):
     """Learns a decision tree that says what to do, from nothing but rewards.
 
     Parameters
@@ -238,138 +69,12 @@ class Agent:
             raise ReenteredError("an agent is made once")
         self._make(domain, config, changes, None)
 
-    def _make(
-        self,
-        domain: Domain | int,
-        config: Config | int,
-        changes: dict[str, Any],
-        snapshot: bytes | None,
-    ) -> None:
-        if isinstance(domain, int):
-            domain = Bits(domain)
-        if isinstance(config, int):
-            config = Config(actions=config)
-        if changes:
-            try:
-                config = config.replace(**changes)
-            except TypeError as error:
-                raise ConfigError(f"no such field: {error}") from None
-        self._domain = domain
-        self._config = config
-        self._guard = Guard()
-        self._pack = domain.pack
-        self._native_domain = domain.native(self._guard)
-        self._native_config = to_native(config, self._native_domain)
-        references = (_byref(self._native_config), _byref(self._native_domain))
-        size = ctypes.c_size_t()
-        self._check(_lib.call.rlvc_agent_size(*references, _byref(size)))
-        try:
-            self._block: npt.NDArray[np.uint64] | None = np.empty(size.value // 8 + 1, np.uint64)
-        except (MemoryError, ValueError):
-            raise BlockError(
-                f"no memory for an agent of {size.value} bytes: allow fewer with capacity or classes"
-            ) from None
-        agent = ctypes.c_void_p()
-        place = (self._block.ctypes.data, size.value)
-        if snapshot is None:
-            status = _lib.call.rlvc_agent_init(*references, *place, _byref(agent))
-        else:
-            store = MemoryStore(self._snapshot_bytes(), snapshot)
-            reference = _byref(store.native)
-            status = _lib.long_call.rlvc_load(*references, *place, reference, _byref(agent))
-        self._check(status)
-        # None while a long call is under way, and after close(): C then answers RLVC_E_NULL.
-        self._handle: int | None = agent.value
-        self._address = agent.value
-        self._memory_bytes = size.value
+    def _make(self, *arguments: Any) -> None:
+        """Make an agent, and what C reads choices from."""
+        super()._make(*arguments)
         self._choice = _lib.Choice()
         self._choice_reference = _byref(self._choice)
         self._chosen: object = _NOTHING  # the Choice that self._choice says
-        self._class = ctypes.c_uint32()
-        self._action = ctypes.c_uint32()
-        self._answers = (_byref(self._class), _byref(self._action))
-
-    # -------------------------------------------------------------- errors, the end
-
-    def _check(self, status: int, index: int | None = None) -> None:
-        if status != _lib.OK:
-            self._fail(status, index)
-
-    def _fail(self, status: int, index: int | None = None) -> None:
-        error, self._guard.error = self._guard.error, None
-        if error is not None:
-            raise error
-        if status == _lib.E_NULL:
-            if getattr(self, "_address", 0) is None:
-                raise ClosedError("the agent is closed")
-            if self._handle is None:
-                raise ReenteredError("the agent is in a call: of a callback, or of another thread")
-            raise PerceptError("a percept is wanted unless the episode is terminated")
-        text = _lib.status_text(status)
-        if index is not None:
-            text = f"interaction {index}: {text}"
-        raise _ERRORS.get(status, Error)(text)
-
-    def _long(self, name: str, *arguments: Any) -> int:
-        """Call a function that releases the interpreter's lock; the agent is not to be had meanwhile."""
-        handle = self._handle
-        if handle is None:
-            self._fail(_lib.E_NULL)
-        try:
-            self._handle = None
-            return int(getattr(_lib.long_call, name)(handle, *arguments))
-        finally:
-            self._handle = handle
-
-    def close(self) -> None:
-        """Give the agent's memory back. Closing twice does nothing.
-
-        Raises
-        ------
-        ReenteredError
-            The agent is in a call.
-        """
-        if self._address is None:
-            return
-        if self._handle is None or self._guard.depth > 0:
-            raise ReenteredError("the agent is in a call: it cannot be closed")
-        self._handle = self._address = None
-        self._block = None
-
-    def __enter__(self) -> Agent:
-        """Give the agent itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Close the agent."""
-        self.close()
-
-    def __repr__(self) -> str:
-        """Say what it is."""
-        if self._handle is None:
-            return "<rlvc.Agent, closed>" if self._address is None else "<rlvc.Agent, in a call>"
-        s = self.statistics
-        return f"<rlvc.Agent of {s.classes} classes after {s.interactions} interactions>"
-
-    @property
-    def domain(self) -> Domain:
-        """What percepts and features are."""
-        return self._domain
-
-    @property
-    def config(self) -> Config:
-        """How it learns."""
-        return self._config
-
-    @property
-    def memory_bytes(self) -> int:
-        """The size of the agent's block, in bytes."""
-        return self._memory_bytes
 
     # -------------------------------------------------------------- acting and observing
 
@@ -505,18 +210,9 @@ class Agent:
         packed = self._domain.pack_many(percepts)
         count = len(packed)
         choices = np.empty(count, CHOICE)
-        done = ctypes.c_size_t()
-        self._chosen = _NOTHING
-        status = self._long(
-            "rlvc_shim_act",
-            packed.ctypes.data,
-            self._domain.percept_bytes,
-            count,
-            choices.ctypes.data,
-            _byref(done),
-        )
-        if status:
-            self._fail(status, done.value)
+        native = _lib.Log(packed.ctypes.data, None, choices.ctypes.data)
+        native.count, native.bytes = count, self._domain.percept_bytes
+        self._loop("rlvc_shim_act", native)
         return choices
 
     def observe_many(
@@ -553,37 +249,36 @@ class Agent:
         BusyError
             The ring is full of what is being learnt from; what came before it was stored.
         """
-        domain = self._domain
-        packed = domain.pack_many(percepts)
-        count = len(packed)
-        following = domain.pack_many(next_percepts)
-        if len(following) != count:
-            raise ArrayError(f"next_percepts: {len(following)} of them, not {count}")
-        if (
-            not isinstance(choices, np.ndarray)
-            or choices.dtype != CHOICE
-            or choices.shape != (count,)
-        ):
-            raise ArrayError(f"choices: not an array of CHOICE [{count}]")
-        if not choices.flags.c_contiguous:
-            raise ArrayError("choices: not C-contiguous: numpy.ascontiguousarray makes it so")
-        shape = (count,)
-        rewards = _checked(rewards, "rewards", "float32", shape)
-        ends = _checked(ends, "ends", "uint8", shape)
-        log = _lib.Log(
-            packed.ctypes.data,
-            following.ctypes.data,
-            choices.ctypes.data,
-            rewards.ctypes.data,
-            ends.ctypes.data,
-            count,
-            domain.percept_bytes,
-            self._config.actions,
-        )
+        arrays = (percepts, choices, rewards, next_percepts, ends)
+        native = native_log(self._domain, self._config.actions, *arrays)
+        native.resume = bool(resume)
+        self._loop("rlvc_shim_observe", native)
+
+    def _loop(self, name: str, native: _lib.Log) -> None:
+        """Call a loop over interactions; its errors say at which one it stopped."""
         done = ctypes.c_size_t()
-        status = self._long("rlvc_shim_observe", _byref(log), resume, _byref(done))
+        status = self._long(name, _byref(native), _byref(done))
         if status:
             self._fail(status, done.value)
+
+    def batch(self, count: int) -> Batch:
+        """Make the arrays for a vector of environments: the fastest way to act and observe in many.
+
+        Parameters
+        ----------
+        count : int
+            The most environments.
+
+        Returns
+        -------
+        Batch
+
+        Raises
+        ------
+        RangeError
+            ``count`` is not 1 or more.
+        """
+        return Batch(self, count)
 
     # -------------------------------------------------------------- learning
 
@@ -621,219 +316,7 @@ class Agent:
             if progress.done or budget is not None:
                 return Progress(work, progress.rounds, progress.splits, bool(progress.done))
 
-    # -------------------------------------------------------------- asking
-
-    def predict(
-        self,
-        percept: Percept,
-        out: tuple[npt.NDArray[np.uint32] | None, npt.NDArray[np.uint32] | None] | None = None,
-    ) -> Prediction:
-        """Give the class of a percept and its greedy action, or those of an array of percepts.
-
-        Parameters
-        ----------
-        percept : bytes, or ndarray [*percept_shape] or [n, *percept_shape]
-            One percept, or n of them.
-        out : pair of ndarray of uint32, [n], or None
-            For n percepts, where to write the classes and the actions; a None in it leaves that out.
-
-        Returns
-        -------
-        Prediction
-            (class_id, action), numbers or arrays.
-
-        Raises
-        ------
-        PerceptError
-            Wrong size, dtype or shape, or not C-contiguous.
-        ArrayError
-            ``out`` is of the wrong dtype or shape, not C-contiguous, or read-only.
-        """
-        if not self._domain.is_one(percept):
-            return self._predict_many(percept, out)
-        status = _predict(self._handle, self._pack(percept), *self._answers)
-        if status:
-            self._fail(status)
-        return Prediction(self._class.value, self._action.value)
-
-    def _predict_many(self, percepts: Any, out: Any) -> Prediction:
-        packed = self._domain.pack_many(percepts)
-        count = len(packed)
-        if out is None:
-            out = (np.empty(count, np.uint32), np.empty(count, np.uint32))
-        elif not isinstance(out, tuple) or len(out) != 2:
-            raise ArrayError("out: a pair of arrays is wanted")
-        pointers: list[int | None] = []
-        for array in out:
-            if array is not None and not _checked(array, "out", "uint32", (count,)).flags.writeable:
-                raise ArrayError("out: read-only")
-            pointers.append(None if array is None else array.ctypes.data)
-        done = ctypes.c_size_t()
-        status = self._long(
-            "rlvc_shim_predict",
-            packed.ctypes.data,
-            self._domain.percept_bytes,
-            count,
-            *pointers,
-            _byref(done),
-        )
-        if status:
-            self._fail(status, done.value)
-        return Prediction(*out)
-
-    @property
-    def statistics(self) -> Statistics:
-        """Numbers about the agent."""
-        native = _lib.Statistics()
-        self._check(_lib.call.rlvc_stats(self._handle, _byref(native)))
-        return Statistics(
-            *(getattr(native, field.name) for field in dataclasses.fields(Statistics))
-        )
-
-    @property
-    def classes(self) -> int:
-        """How many classes the tree tells apart."""
-        return self.statistics.classes
-
-    def _tables(self) -> tuple[npt.NDArray[Any], ...]:
-        classes, actions = self.classes, self._config.actions
-        tables: tuple[npt.NDArray[Any], ...] = (
-            np.empty((classes, actions), np.float32),
-            np.empty((classes, actions), np.uint32),
-            np.empty(classes, np.float32),
-            np.empty(classes, np.uint32),
-        )
-        pointers = (table.ctypes.data for table in tables)
-        self._check(self._long("rlvc_shim_tables", classes, actions, *pointers))
-        return tables
-
-    @property
-    def q(self) -> npt.NDArray[np.float32]:
-        """Q(class, action) of the last solution, float32 [classes, actions], in units of return."""
-        return self._tables()[0]
-
-    @property
-    def samples(self) -> npt.NDArray[np.uint32]:
-        """How many interactions each Q rests on, uint32 [classes, actions]; 0: untried."""
-        return self._tables()[1]
-
-    @property
-    def values(self) -> npt.NDArray[np.float32]:
-        """V(class) of the last solution, float32 [classes], in units of return."""
-        return self._tables()[2]
-
-    @property
-    def policy(self) -> npt.NDArray[np.uint32]:
-        """The greedy action of each class, uint32 [classes]."""
-        return self._tables()[3]
-
-    @property
-    def splits(self) -> list[Split]:
-        """The splits of the tree, in the order in which they were made."""
-        native = _lib.Split()
-        record = ctypes.create_string_buffer(self._domain.feature_bytes)
-        splits = []
-        for index in range(self.classes - 1):
-            status = _lib.call.rlvc_split_at(self._handle, index, _byref(native), record)
-            self._check(status)
-            feature = self._domain.feature(record.raw)
-            action = None if native.action == self._config.actions else native.action
-            splits.append(
-                Split(
-                    index,
-                    native.class_id,
-                    feature,
-                    self._domain.name(feature),
-                    native.step,
-                    action,
-                    native.samples,
-                    native.log_tests,
-                    native.score,
-                    native.log_p,
-                )
-            )
-        return splits
-
-    @property
-    def tree(self) -> dict[str, Any]:
-        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
-        tree: dict[str, Any] = json.loads(self.print("json"))
-        return tree
-
-    def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
-        """Print the tree with the action, value and numbers of each class.
-
-        Parameters
-        ----------
-        form : {"text", "dot", "json"}
-            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        RangeError
-            There is no such form.
-        """
-        forms = {"text": _lib.PRINT_TEXT, "dot": _lib.PRINT_DOT, "json": _lib.PRINT_JSON}
-        if form not in forms:
-            raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
-        parts: list[bytes] = []
-        self._check(self._long("rlvc_print", forms[form], self._writer(parts), None))
-        return b"".join(parts).decode()
-
-    def _writer(self, parts: list[bytes]) -> Any:
-        """Make a callback that appends what the library writes."""
-        guard = self._guard
-
-        def write(_ctx: int | None, text: int, size: int) -> int:
-            try:
-                parts.append(ctypes.string_at(text, size))
-            except BaseException as error:  # out of memory, or Ctrl-C
-                guard.error = error
-                return 1
-            return 0
-
-        return _lib.WRITE(write)
-
-    def export_c(self, name: str = "policy") -> str:
-        """Give the learnt policy as a C99 header for a controller that only acts.
-
-        Parameters
-        ----------
-        name : str
-            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        RangeError
-            ``name`` is no such identifier.
-        ConfigError
-            The domain is not :class:`Bits`.
-
-        Notes
-        -----
-        Source: ``core/include/rlvc/export.h``.
-        """
-        encoded = name.encode()
-        parts: list[bytes] = []
-        write = self._writer(parts)
-        self._check(self._long("rlvc_export_c", encoded, write, None, None))
-        return b"".join(parts).decode()
-
     # -------------------------------------------------------------- outliving the process
-
-    def _snapshot_bytes(self) -> int:
-        size = ctypes.c_uint32()
-        references = (_byref(self._native_config), _byref(self._native_domain))
-        self._check(_lib.call.rlvc_snapshot_size(*references, _byref(size)))
-        return size.value
 
     def snapshot(self) -> bytes:
         """Give all that decides the agent's future, a learning step under way included.
@@ -923,13 +406,3 @@ class Agent:
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the agent; its domain must be one that can be pickled."""
         return type(self).restore, (self._domain, self._config, self.snapshot())
-
-    def check(self) -> None:
-        """Check every invariant of the agent's memory, which ``core/SPEC.md`` lists.
-
-        Raises
-        ------
-        BlockError
-            The memory is damaged.
-        """
-        self._check(self._long("rlvc_agent_check"))

@@ -10,7 +10,8 @@ from collections.abc import Callable
 import numpy as np
 
 from . import _lib
-from .agent import CHOICE, Agent
+from .agent import Agent
+from .results import CHOICE
 
 PERCEPTS = 1_000_000
 _STEPS = 50_000
@@ -87,7 +88,7 @@ def step_times(agent: Agent) -> tuple[float, float]:
 
 
 def batch_time(agent: Agent, environments: int) -> float:
-    """Time act_many plus observe_many.
+    """Time a step of a :class:`~rlvc.Batch`, in which all that changes is written into its arrays.
 
     Parameters
     ----------
@@ -103,12 +104,17 @@ def batch_time(agent: Agent, environments: int) -> float:
     random = np.random.default_rng(3)
     percepts = random.integers(256, size=(environments, 3), dtype=np.uint8)
     rewards, ends = np.ones(environments, np.float32), np.zeros(environments, np.uint8)
+    batch = agent.batch(environments)
     rounds = max(10, _STEPS // environments)
 
     def steps() -> None:
         for _ in range(rounds):
-            choices = agent.act_many(percepts)
-            agent.observe_many(percepts, choices, rewards, percepts, ends)
+            batch.percepts[...] = percepts
+            batch.act()
+            batch.next_percepts[...] = percepts
+            batch.rewards[...] = rewards
+            batch.ends[...] = ends
+            batch.observe()
 
     return best(steps) / (rounds * environments)
 

@@ -11,11 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _lib
-from .agent import CHOICE, Agent
+from .agent import Agent
 from .config import Config
 from .domain import Bits
 from .encode import Encoder, needs_samples
 from .errors import ConfigError, SpaceError
+from .results import CHOICE
 
 if TYPE_CHECKING:
     import gymnasium

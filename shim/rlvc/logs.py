@@ -19,11 +19,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .agent import CHOICE, Agent
+from .agent import Agent
 from .domain import Bits
 from .encode import Encoder, Numbers, needs_samples
 from .errors import ConfigError, LogError, PerceptError
 from .learning import Record, Run, default_config
+from .results import CHOICE
 
 _FIELDS = ("observations", "actions", "rewards", "terminated")
 _OPTIONAL = ("truncated", "exploited")

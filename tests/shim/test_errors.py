@@ -171,6 +171,7 @@ REENTRIES = {
     "predict": lambda agent: agent.predict(bytes(1)),
     "predict_many": lambda agent: agent.predict(np.zeros((2, 1), np.uint8)),
     "act_many": lambda agent: agent.act_many(np.zeros((2, 1), np.uint8)),
+    "batch": lambda agent: agent.batch(2).act(),
     "print": lambda agent: agent.print(),
     "export_c": lambda agent: agent.export_c(),
     "close": lambda agent: agent.close(),
@@ -416,6 +417,42 @@ def test_other_configs():
             rlvc.Agent(bits, 2)
     with pytest.raises(errors.BlockError):
         rlvc.Agent(1024, 255, capacity=2**31 - 1, classes=65535)
+
+
+@pytest.mark.parametrize("count", [0, -1, 2.0, None])
+def test_wrong_sizes_of_batches(agent, count):
+    with pytest.raises(errors.RangeError):
+        agent.batch(count)
+
+
+@pytest.mark.parametrize("size", [4, 4000])
+def test_wrong_steps_of_batches(agent, size):
+    batch = agent.batch(size)
+    for count in (-1, size + 1, 1.0):
+        for call in (batch.act, batch.observe):
+            with pytest.raises(errors.RangeError, match="count"):
+                call(count)
+    with pytest.raises(AttributeError):
+        batch.rewards = np.zeros(4)
+    with pytest.raises(ValueError, match="own"):
+        batch.rewards.resize(8)
+    before = state(agent)
+    for name, value, error in (
+        ("rewards", np.nan, errors.RewardError),
+        ("ends", 3, errors.RangeError),
+        ("choices", (3, 0), errors.RangeError),
+    ):
+        array = getattr(batch, name)
+        array[2] = value
+        with pytest.raises(error, match="interaction 2"):
+            batch.observe()
+        array[2] = 0
+    assert state(agent) == before
+    batch.observe()
+    agent.close()
+    for call in (batch.act, batch.observe):
+        with pytest.raises(errors.ClosedError):
+            call()
 
 
 def test_a_closed_agent(agent):

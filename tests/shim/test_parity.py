@@ -163,3 +163,36 @@ def test_batches_equal_single_calls():
     assert [tuple(one.predict(percept)) for percept in percepts] == list(
         zip(classes.tolist(), actions.tolist(), strict=True)
     )
+
+
+def test_a_batch_equals_arrays():
+    """Over some steps of a vector whose last environment is dead in every third."""
+    random = np.random.default_rng(6)
+    arrays, batched = (rlvc.Agent(12, 3, classes=32, epsilon=0.5) for _ in range(2))
+    batch = batched.batch(9)
+    for step in range(200):
+        count = 8 if step % 3 == 0 else 9
+        percepts, after = random.integers(256, size=(2, count, 2), dtype=np.uint8)
+        ends = random.choice([0, 0, 1, 2], size=count).astype(np.uint8)
+        batch.percepts[:count] = percepts
+        choices = batch.act(count)
+        assert (choices == arrays.act_many(percepts)).all()
+        rewards = (percepts[:, 0] % 4 * choices["action"]).astype(np.float32)
+        batch.rewards[:count], batch.ends[:count] = rewards, ends
+        batch.next_percepts[:count] = after
+        batch.observe(count)
+        arrays.observe_many(percepts, choices, rewards, after, ends)
+        if step == 100:
+            assert arrays.learn() == batched.learn()
+    assert arrays.learn().splits == batched.learn().splits
+    assert arrays.classes > 2
+    assert arrays.snapshot() == batched.snapshot()
+
+
+def test_a_large_batch_equals_a_small_one():
+    """A large one releases the interpreter's lock."""
+    large = rlvc.Agent(12, 3).batch(4000)
+    small = rlvc.Agent(12, 3).batch(100)
+    for batch in (large, small):
+        batch.percepts[:100] = np.arange(200, dtype=np.uint8).reshape(100, 2)
+    assert (large.act(100) == small.act()).all()

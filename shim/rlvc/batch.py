@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""Arrays of interactions: those of one call, or of a vector of environments for as long as it lives."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _lib
+from .domain import Domain
+from .errors import ArrayError, RangeError
+from .results import CHOICE
+
+if TYPE_CHECKING:
+    from .agent import Agent
+
+_DTYPES = {name: np.dtype(name) for name in ("float32", "uint8", "uint32")} | {"CHOICE": CHOICE}
+
+_QUICK_BYTES = (
+    4096  # percepts of so many are looked at in microseconds, with the interpreter's lock
+)
+
+
+def checked(array: Any, name: str, dtype: str, shape: tuple[int, ...]) -> npt.NDArray[Any]:
+    """Make sure that an array is what C takes it for.
+
+    Parameters
+    ----------
+    array : object
+    name : str
+        What to call it in errors.
+    dtype : {"float32", "uint8", "uint32", "CHOICE"}
+    shape : tuple of int
+
+    Returns
+    -------
+    ndarray
+        Itself.
+
+    Raises
+    ------
+    ArrayError
+        It is no array, of another dtype or shape, or not C-contiguous.
+    """
+    if not isinstance(array, np.ndarray):
+        raise ArrayError(f"{name}: an array is wanted, not {type(array).__name__}")
+    if array.dtype != _DTYPES[dtype] or array.shape != shape:
+        raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, not {dtype}{list(shape)}")
+    if not array.flags.c_contiguous:
+        raise ArrayError(f"{name}: not C-contiguous: numpy.ascontiguousarray makes it so")
+    return array
+
+
+def native_log(
+    domain: Domain,
+    actions: int,
+    percepts: npt.NDArray[Any],
+    choices: npt.NDArray[Any],
+    rewards: npt.NDArray[Any],
+    next_percepts: npt.NDArray[Any],
+    ends: npt.NDArray[Any],
+) -> _lib.Log:
+    """Make the C struct of interactions, which keeps its arrays alive.
+
+    Parameters
+    ----------
+    domain : Domain
+    actions : int
+        How many there are.
+    percepts, choices, rewards, next_percepts, ends : ndarray, [n, ...]
+        As :meth:`rlvc.Agent.observe_many` has them.
+
+    Returns
+    -------
+    rlvc_shim_log
+
+    Raises
+    ------
+    ArrayError
+        One is of the wrong dtype or shape, or not C-contiguous.
+    """
+    before, after = domain.pack_many(percepts), domain.pack_many(next_percepts)
+    count = len(before)
+    if len(after) != count:
+        raise ArrayError(f"next_percepts: {len(after)} of them, not {count}")
+    checked(choices, "choices", "CHOICE", (count,))
+    checked(rewards, "rewards", "float32", (count,))
+    checked(ends, "ends", "uint8", (count,))
+    arrays = (before, after, choices, rewards, ends)
+    pointers = (array.ctypes.data for array in arrays)
+    native = _lib.Log(*pointers, count, domain.percept_bytes, actions)
+    native._keeps = arrays
+    return native
+
+
+class Batch:
+    """The interactions of a vector of environments, in arrays whose places C knows.
+
+    :meth:`rlvc.Agent.batch` makes one. A step of the vector is: write the current percepts, call
+    :meth:`act`, step the environments, write what came of it, call :meth:`observe`. The arrays stay
+    where they are and nothing about them is looked at again, so that from 64 environments on a step
+    costs less than a tenth of as many calls of ``act`` and ``observe``
+    (``tools/bench/shim.py``). ``batch.rewards[...] = rewards`` is the fastest way to write into one.
+
+    Parameters
+    ----------
+    agent : Agent
+    count : int
+        The most environments.
+
+    Attributes
+    ----------
+    percepts : ndarray, [count, *percept_shape]
+        The current one of each environment, to be written.
+    choices : ndarray of CHOICE, [count]
+        What :meth:`act` chose; may be changed.
+    rewards : ndarray of float32, [count]
+        What that earned, to be written: finite, within +-1e12.
+    next_percepts : ndarray, [count, *percept_shape]
+        What it led to, to be written; not looked at where that is the end.
+    ends : ndarray of uint8, [count]
+        How it ended, to be written. 0: goes on; 1: terminated; 2: truncated.
+
+    Raises
+    ------
+    RangeError
+        ``count`` is not 1 or more.
+
+    Notes
+    -----
+    Runs of exploitation go across the environments, so that this suits the residual criterion and not
+    the returns.
+
+    Examples
+    --------
+    >>> from rlvc import Agent
+    >>> agent = Agent(3, 2)
+    >>> batch = agent.batch(2)
+    >>> batch.percepts[...] = [[5], [1]]
+    >>> choices = batch.act()
+    >>> batch.rewards[...], batch.ends[...] = [1.0, 0.0], 1
+    >>> batch.observe()
+    >>> agent.statistics.interactions
+    2
+    """
+
+    def __init__(self, agent: Agent, count: int) -> None:
+        if not isinstance(count, int) or not 1 <= count < 2**31:
+            raise RangeError(f"count: {count!r} is not in [1, 2**31 - 1]")
+        domain = agent.domain
+        percepts = ((count, *domain.percept_shape), domain.percept_dtype)
+        numbers = (((count,), dtype) for dtype in (CHOICE, np.float32, np.uint8))
+        # Views: numpy refuses to move what they look at.
+        before, after, choices, rewards, ends = (
+            np.zeros(shape, dtype)[:] for shape, dtype in (percepts, percepts, *numbers)
+        )
+        self._arrays = (before, choices, rewards, after, ends)
+        self._agent = agent
+        self._count = count
+        self._native = native_log(domain, agent.config.actions, *self._arrays)
+        self._taken: int | None = None
+        self._done = ctypes.c_size_t()
+        self._references = (ctypes.byref(self._native), ctypes.byref(self._done))
+        if count * domain.percept_bytes <= _QUICK_BYTES:
+            self._act, self._observe = _lib.call.rlvc_shim_act, _lib.call.rlvc_shim_observe
+        else:
+            self._act = lambda _, *rest: agent._long("rlvc_shim_act", *rest)
+            self._observe = lambda _, *rest: agent._long("rlvc_shim_observe", *rest)
+
+    percepts = property(lambda self: self._arrays[0])
+    choices = property(lambda self: self._arrays[1])
+    rewards = property(lambda self: self._arrays[2])
+    next_percepts = property(lambda self: self._arrays[3])
+    ends = property(lambda self: self._arrays[4])
+
+    def _take(self, count: int | None) -> None:
+        """Let C see the first `count` environments, or all."""
+        if count is not None and (not isinstance(count, int) or not 0 <= count <= self._count):
+            raise RangeError(f"count: {count!r} is not in [0, {self._count}]")
+        self._taken = count
+        self._native.count = self._count if count is None else count
+
+    def act(self, count: int | None = None) -> npt.NDArray[Any]:
+        """Choose an action for each environment: what ``begin`` and ``act`` do for one.
+
+        Parameters
+        ----------
+        count : int or None
+            For the first so many only, if there are fewer current percepts than environments.
+
+        Returns
+        -------
+        ndarray of CHOICE, [count]
+            ``choices``, whose fields are ``action`` and ``exploited``, both uint8.
+
+        Raises
+        ------
+        RangeError
+            ``count`` is out of range.
+        BusyError
+            The ring is full of what is being learnt from.
+        """
+        if count is not self._taken:
+            self._take(count)
+        status = self._act(self._agent._handle, *self._references)
+        if status:
+            self._agent._fail(status, self._done.value)
+        return self._arrays[1] if count is None else self._arrays[1][:count]
+
+    def observe(self, count: int | None = None) -> None:
+        """Store an interaction of each environment.
+
+        Parameters
+        ----------
+        count : int or None
+            Of the first so many only.
+
+        Raises
+        ------
+        RewardError, RangeError
+            A reward, an action or an end is out of range; the text says which. Nothing was stored.
+        BusyError
+            The ring is full of what is being learnt from; what came before it was stored.
+        """
+        if count is not self._taken:
+            self._take(count)
+        status = self._observe(self._agent._handle, *self._references)
+        if status:
+            self._agent._fail(status, self._done.value)

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: MIT
+"""An agent's block of memory: how it is made, how its errors come out, and how it ends."""
+
+from __future__ import annotations
+
+import ctypes
+from types import TracebackType
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _lib
+from .config import Config, to_native
+from .domain import Bits, Domain, Guard
+from .errors import (
+    BlockError,
+    BusyError,
+    CallbackError,
+    ClosedError,
+    ConfigError,
+    Error,
+    OrderError,
+    PerceptError,
+    RangeError,
+    ReenteredError,
+    RewardError,
+    SnapshotError,
+    StoreError,
+)
+from .snapshot import MemoryStore
+
+_ERRORS: dict[int, type[Error]] = {
+    _lib.E_CONFIG: ConfigError,
+    _lib.E_MEMORY: BlockError,
+    _lib.E_ORDER: OrderError,
+    _lib.E_RANGE: RangeError,
+    _lib.E_REWARD: RewardError,
+    _lib.E_BUSY: BusyError,
+    _lib.E_CALLBACK: CallbackError,
+    _lib.E_REENTERED: ReenteredError,
+    _lib.E_STORE: StoreError,
+    _lib.E_EMPTY: SnapshotError,
+    _lib.E_DAMAGED: SnapshotError,
+    _lib.E_VERSION: SnapshotError,
+    _lib.E_MISMATCH: SnapshotError,
+}
+_byref = ctypes.byref
+_Self = TypeVar("_Self", bound="Handle")
+
+
+class Handle:
+    """What C knows an agent by. The methods of an agent are in :class:`rlvc.Agent`."""
+
+    def _make(
+        self,
+        domain: Domain | int,
+        config: Config | int,
+        changes: dict[str, Any],
+        snapshot: bytes | None,
+    ) -> None:
+        """Make an agent in a block of its own: a new one, or that of a snapshot."""
+        if isinstance(domain, int):
+            domain = Bits(domain)
+        if isinstance(config, int):
+            config = Config(actions=config)
+        if changes:
+            try:
+                config = config.replace(**changes)
+            except TypeError as error:
+                raise ConfigError(f"no such field: {error}") from None
+        self._domain = domain
+        self._config = config
+        self._guard = Guard()
+        self._pack = domain.pack
+        self._native_domain = domain.native(self._guard)
+        self._native_config = to_native(config, self._native_domain)
+        references = (_byref(self._native_config), _byref(self._native_domain))
+        size = ctypes.c_size_t()
+        self._check(_lib.call.rlvc_agent_size(*references, _byref(size)))
+        try:
+            self._block: npt.NDArray[np.uint64] | None = np.empty(size.value // 8 + 1, np.uint64)
+        except (MemoryError, ValueError):
+            raise BlockError(
+                f"no memory for an agent of {size.value} bytes: allow fewer with capacity or classes"
+            ) from None
+        agent = ctypes.c_void_p()
+        place = (self._block.ctypes.data, size.value)
+        if snapshot is None:
+            status = _lib.call.rlvc_agent_init(*references, *place, _byref(agent))
+        else:
+            store = MemoryStore(self._snapshot_bytes(), snapshot)
+            reference = _byref(store.native)
+            status = _lib.long_call.rlvc_load(*references, *place, reference, _byref(agent))
+        self._check(status)
+        # None while a long call is under way, and after close(): C then answers RLVC_E_NULL.
+        self._handle: int | None = agent.value
+        self._address = agent.value
+        self._memory_bytes = size.value
+
+    # -------------------------------------------------------------- errors, the end
+
+    def _check(self, status: int, index: int | None = None) -> None:
+        if status != _lib.OK:
+            self._fail(status, index)
+
+    def _fail(self, status: int, index: int | None = None) -> None:
+        error, self._guard.error = self._guard.error, None
+        if error is not None:
+            raise error
+        if status == _lib.E_NULL:
+            if getattr(self, "_address", 0) is None:
+                raise ClosedError("the agent is closed")
+            if self._handle is None:
+                raise ReenteredError("the agent is in a call: of a callback, or of another thread")
+            raise PerceptError("a percept is wanted unless the episode is terminated")
+        text = _lib.status_text(status)
+        if index is not None:
+            text = f"interaction {index}: {text}"
+        raise _ERRORS.get(status, Error)(text)
+
+    def _long(self, name: str, *arguments: Any) -> int:
+        """Call a function that releases the interpreter's lock; the agent is not to be had meanwhile."""
+        handle = self._handle
+        if handle is None:
+            self._fail(_lib.E_NULL)
+        try:
+            self._handle = None
+            return int(getattr(_lib.long_call, name)(handle, *arguments))
+        finally:
+            self._handle = handle
+
+    def close(self) -> None:
+        """Give the agent's memory back. Closing twice does nothing.
+
+        Raises
+        ------
+        ReenteredError
+            The agent is in a call.
+        """
+        if self._address is None:
+            return
+        if self._handle is None or self._guard.depth > 0:
+            raise ReenteredError("the agent is in a call: it cannot be closed")
+        self._handle = self._address = None
+        self._block = None
+
+    def __enter__(self: _Self) -> _Self:
+        """Give the agent itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Close the agent."""
+        self.close()
+
+    @property
+    def domain(self) -> Domain:
+        """What percepts and features are."""
+        return self._domain
+
+    @property
+    def config(self) -> Config:
+        """How it learns."""
+        return self._config
+
+    @property
+    def memory_bytes(self) -> int:
+        """The size of the agent's block, in bytes."""
+        return self._memory_bytes
+
+    def _snapshot_bytes(self) -> int:
+        size = ctypes.c_uint32()
+        references = (_byref(self._native_config), _byref(self._native_domain))
+        self._check(_lib.call.rlvc_snapshot_size(*references, _byref(size)))
+        return size.value

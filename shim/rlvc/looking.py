@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: MIT
+"""What can be asked of an agent, none of which changes it."""
+
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+import json
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _lib
+from .batch import checked
+from .domain import Percept
+from .errors import ArrayError, RangeError
+from .handle import Handle
+from .results import Prediction, Split, Statistics
+
+_predict = _lib.call.rlvc_predict
+_byref = ctypes.byref
+
+
+class Looking(Handle):
+    """An agent as one looks at it. The methods of an agent are in :class:`rlvc.Agent`."""
+
+    def _make(self, *arguments: Any) -> None:
+        """Make an agent, and what C answers into."""
+        super()._make(*arguments)
+        self._class = ctypes.c_uint32()
+        self._action = ctypes.c_uint32()
+        self._answers = (_byref(self._class), _byref(self._action))
+
+    def __repr__(self) -> str:
+        """Say what it is."""
+        if self._handle is None:
+            return "<rlvc.Agent, closed>" if self._address is None else "<rlvc.Agent, in a call>"
+        s = self.statistics
+        return f"<rlvc.Agent of {s.classes} classes after {s.interactions} interactions>"
+
+    def predict(
+        self,
+        percept: Percept,
+        out: tuple[npt.NDArray[np.uint32] | None, npt.NDArray[np.uint32] | None] | None = None,
+    ) -> Prediction:
+        """Give the class of a percept and its greedy action, or those of an array of percepts.
+
+        Parameters
+        ----------
+        percept : bytes, or ndarray [*percept_shape] or [n, *percept_shape]
+            One percept, or n of them.
+        out : pair of ndarray of uint32, [n], or None
+            For n percepts, where to write the classes and the actions; a None in it leaves that out.
+
+        Returns
+        -------
+        Prediction
+            (class_id, action), numbers or arrays.
+
+        Raises
+        ------
+        PerceptError
+            Wrong size, dtype or shape, or not C-contiguous.
+        ArrayError
+            ``out`` is of the wrong dtype or shape, not C-contiguous, or read-only.
+        """
+        if not self._domain.is_one(percept):
+            return self._predict_many(percept, out)
+        status = _predict(self._handle, self._pack(percept), *self._answers)
+        if status:
+            self._fail(status)
+        return Prediction(self._class.value, self._action.value)
+
+    def _predict_many(self, percepts: Any, out: Any) -> Prediction:
+        packed = self._domain.pack_many(percepts)
+        count = len(packed)
+        if out is None:
+            out = (np.empty(count, np.uint32), np.empty(count, np.uint32))
+        elif not isinstance(out, tuple) or len(out) != 2:
+            raise ArrayError("out: a pair of arrays is wanted")
+        pointers: list[int | None] = []
+        for array in out:
+            if array is not None and not checked(array, "out", "uint32", (count,)).flags.writeable:
+                raise ArrayError("out: read-only")
+            pointers.append(None if array is None else array.ctypes.data)
+        done = ctypes.c_size_t()
+        status = self._long(
+            "rlvc_shim_predict",
+            packed.ctypes.data,
+            self._domain.percept_bytes,
+            count,
+            *pointers,
+            _byref(done),
+        )
+        if status:
+            self._fail(status, done.value)
+        return Prediction(*out)
+
+    @property
+    def statistics(self) -> Statistics:
+        """Numbers about the agent."""
+        native = _lib.Statistics()
+        self._check(_lib.call.rlvc_stats(self._handle, _byref(native)))
+        return Statistics(
+            *(getattr(native, field.name) for field in dataclasses.fields(Statistics))
+        )
+
+    @property
+    def classes(self) -> int:
+        """How many classes the tree tells apart."""
+        return self.statistics.classes
+
+    def _tables(self) -> tuple[npt.NDArray[Any], ...]:
+        classes, actions = self.classes, self._config.actions
+        tables: tuple[npt.NDArray[Any], ...] = (
+            np.empty((classes, actions), np.float32),
+            np.empty((classes, actions), np.uint32),
+            np.empty(classes, np.float32),
+            np.empty(classes, np.uint32),
+        )
+        pointers = (table.ctypes.data for table in tables)
+        self._check(self._long("rlvc_shim_tables", classes, actions, *pointers))
+        return tables
+
+    @property
+    def q(self) -> npt.NDArray[np.float32]:
+        """Q(class, action) of the last solution, float32 [classes, actions], in units of return."""
+        return self._tables()[0]
+
+    @property
+    def samples(self) -> npt.NDArray[np.uint32]:
+        """How many interactions each Q rests on, uint32 [classes, actions]; 0: untried."""
+        return self._tables()[1]
+
+    @property
+    def values(self) -> npt.NDArray[np.float32]:
+        """V(class) of the last solution, float32 [classes], in units of return."""
+        return self._tables()[2]
+
+    @property
+    def policy(self) -> npt.NDArray[np.uint32]:
+        """The greedy action of each class, uint32 [classes]."""
+        return self._tables()[3]
+
+    @property
+    def splits(self) -> list[Split]:
+        """The splits of the tree, in the order in which they were made."""
+        native = _lib.Split()
+        record = ctypes.create_string_buffer(self._domain.feature_bytes)
+        splits = []
+        for index in range(self.classes - 1):
+            status = _lib.call.rlvc_split_at(self._handle, index, _byref(native), record)
+            self._check(status)
+            feature = self._domain.feature(record.raw)
+            action = None if native.action == self._config.actions else native.action
+            splits.append(
+                Split(
+                    index,
+                    native.class_id,
+                    feature,
+                    self._domain.name(feature),
+                    native.step,
+                    action,
+                    native.samples,
+                    native.log_tests,
+                    native.score,
+                    native.log_p,
+                )
+            )
+        return splits
+
+    @property
+    def tree(self) -> dict[str, Any]:
+        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
+        tree: dict[str, Any] = json.loads(self.print("json"))
+        return tree
+
+    def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
+        """Print the tree with the action, value and numbers of each class.
+
+        Parameters
+        ----------
+        form : {"text", "dot", "json"}
+            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            There is no such form.
+        """
+        forms = {"text": _lib.PRINT_TEXT, "dot": _lib.PRINT_DOT, "json": _lib.PRINT_JSON}
+        if form not in forms:
+            raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
+        parts: list[bytes] = []
+        self._check(self._long("rlvc_print", forms[form], self._writer(parts), None))
+        return b"".join(parts).decode()
+
+    def _writer(self, parts: list[bytes]) -> Any:
+        """Make a callback that appends what the library writes."""
+        guard = self._guard
+
+        def write(_ctx: int | None, text: int, size: int) -> int:
+            try:
+                parts.append(ctypes.string_at(text, size))
+            except BaseException as error:  # out of memory, or Ctrl-C
+                guard.error = error
+                return 1
+            return 0
+
+        return _lib.WRITE(write)
+
+    def export_c(self, name: str = "policy") -> str:
+        """Give the learnt policy as a C99 header for a controller that only acts.
+
+        Parameters
+        ----------
+        name : str
+            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            ``name`` is no such identifier.
+        ConfigError
+            The domain is not :class:`Bits`.
+
+        Notes
+        -----
+        Source: ``core/include/rlvc/export.h``.
+        """
+        encoded = name.encode()
+        parts: list[bytes] = []
+        write = self._writer(parts)
+        self._check(self._long("rlvc_export_c", encoded, write, None, None))
+        return b"".join(parts).decode()
+
+    def check(self) -> None:
+        """Check every invariant of the agent's memory, which ``core/SPEC.md`` lists.
+
+        Raises
+        ------
+        BlockError
+            The memory is damaged.
+        """
+        self._check(self._long("rlvc_agent_check"))
