@@ -2,6 +2,8 @@
 /* The layout of every struct that crosses from Python to C, for _lib.py to compare with its own. */
 #include "shim.h"
 
+#include "rlvc/vision.h"
+
 #define SIZE(type) {#type, sizeof(type)}
 #define FIELD(type, field) {#type "." #field, offsetof(type, field)}
 
@@ -105,6 +107,30 @@ static const rlvc_shim_entry layout[] = {
     FIELD(rlvc_shim_log, bytes),
     FIELD(rlvc_shim_log, actions),
     FIELD(rlvc_shim_log, resume),
+    SIZE(rlvc_vision_config),
+    FIELD(rlvc_vision_config, descriptor),
+    FIELD(rlvc_vision_config, points),
+    FIELD(rlvc_vision_config, radius),
+    FIELD(rlvc_vision_config, form),
+    FIELD(rlvc_vision_config, normalise),
+    FIELD(rlvc_vision_config, reserved),
+    FIELD(rlvc_vision_config, sd),
+    FIELD(rlvc_vision_config, si),
+    FIELD(rlvc_vision_config, k),
+    FIELD(rlvc_vision_config, threshold),
+    FIELD(rlvc_vision_config, sigma),
+    SIZE(rlvc_vision_error),
+    FIELD(rlvc_vision_error, text),
+    SIZE(rlvc_point),
+    FIELD(rlvc_point, x),
+    FIELD(rlvc_point, y),
+    FIELD(rlvc_point, response),
+    SIZE(rlvc_picture),
+    FIELD(rlvc_picture, pixels),
+    FIELD(rlvc_picture, stride),
+    FIELD(rlvc_picture, width),
+    FIELD(rlvc_picture, height),
+    FIELD(rlvc_picture, format),
     SIZE(gridworld_maze),
     FIELD(gridworld_maze, width),
     FIELD(gridworld_maze, height),

@@ -207,6 +207,48 @@ class Log(c.Structure):
     ]
 
 
+class VisionConfig(c.Structure):
+    """``rlvc_vision_config``."""
+
+    _fields_ = [
+        ("descriptor", c.c_uint32),
+        ("points", c.c_uint32),
+        ("radius", c.c_uint32),
+        ("form", c.c_uint8),
+        ("normalise", c.c_uint8),
+        ("reserved", c.c_uint8 * 2),
+        ("sd", c.c_float),
+        ("si", c.c_float),
+        ("k", c.c_float),
+        ("threshold", c.c_float),
+        ("sigma", c.c_float),
+    ]
+
+
+class VisionError(c.Structure):
+    """``rlvc_vision_error``."""
+
+    _fields_ = [("text", c.c_char * 256)]
+
+
+class Point(c.Structure):
+    """``rlvc_point``."""
+
+    _fields_ = [("x", c.c_float), ("y", c.c_float), ("response", c.c_float)]
+
+
+class Picture(c.Structure):
+    """``rlvc_picture``."""
+
+    _fields_ = [
+        ("pixels", c.c_void_p),
+        ("stride", c.c_ssize_t),
+        ("width", c.c_uint32),
+        ("height", c.c_uint32),
+        ("format", c.c_uint32),
+    ]
+
+
 class Maze(c.Structure):
     """``gridworld_maze``."""
 
@@ -261,6 +303,10 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
+    "rlvc_vision_config": VisionConfig,
+    "rlvc_vision_error": VisionError,
+    "rlvc_point": Point,
+    "rlvc_picture": Picture,
     "gridworld_maze": Maze,
     "gridworld_error": MazeFault,
     "gridworld_random": MazeRandom,
@@ -333,6 +379,41 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_shim_world_step": (c.c_int, [_P, _U32, _P]),
 }
 
+# The same of rlvc/vision.h and of native/objects.h, whose libraries are there where OpenCV is.
+VISION: dict[str, tuple[Any, list[Any]]] = {
+    "rlvc_vision_status_text": (c.c_char_p, [c.c_int]),
+    "rlvc_vision_config_default": (c.c_int, [_U32, _P]),
+    "rlvc_vision_config_check": (c.c_int, [_P, _P]),
+    "rlvc_descriptor_name": (c.c_char_p, [_U32]),
+    "rlvc_descriptor_named": (c.c_int, [c.c_char_p, _P]),
+    "rlvc_descriptor_dimensions": (_U32, [_U32]),
+    "rlvc_vision_percept_bytes": (_U32, [_P]),
+    "rlvc_metric_tau": (c.c_float, [_P]),
+    "rlvc_metric_config": (None, [_P, _P]),
+    "rlvc_metric_kind": (_U32, [_P]),
+    "rlvc_metric_save": (c.c_int, [_P, c.c_char_p, _P]),
+    "rlvc_metric_load": (c.c_int, [c.c_char_p, _P, _P]),
+    "rlvc_metric_write": (c.c_int, [_P, _P, c.c_size_t, _P, _P]),
+    "rlvc_metric_read": (c.c_int, [_P, c.c_size_t, _P, _P]),
+    "rlvc_metric_destroy": (None, [_P]),
+    "rlvc_extractor_create": (c.c_int, [_P, _P, _P, _P]),
+    "rlvc_extractor_extract": (c.c_int, [_P, _P, _P, c.c_size_t, _P, _P]),
+    "rlvc_extractor_step": (c.c_float, [_P]),
+    "rlvc_extractor_destroy": (None, [_P]),
+    "rlvc_fitter_create": (c.c_int, [_P, _P, _P]),
+    "rlvc_fitter_add": (c.c_int, [_P, _P, _U32, _P]),
+    "rlvc_fitter_pair": (c.c_int, [_P, _P, _P, _U32, _P]),
+    "rlvc_fitter_fit": (c.c_int, [_P, _U32, c.c_float, _P, _P]),
+    "rlvc_fitter_destroy": (None, [_P]),
+}
+OBJECTS: dict[str, tuple[Any, list[Any]]] = {
+    "rlvc_shim_objects_find": (c.c_int, [_P, _P, _U32, _U32, _P, _P, c.c_size_t]),
+    "rlvc_shim_objects_size": (None, [_P, _P, _P, _P]),
+    "rlvc_shim_objects_name": (c.c_char_p, [_P, _U32]),
+    "rlvc_shim_objects_copy": (None, [_P, _U32, c.c_int32, _P]),
+    "rlvc_shim_objects_free": (None, [_P]),
+}
+
 # status.h, rlvc/agent.h
 OK, E_NULL, E_CONFIG, E_MEMORY, E_ORDER, E_RANGE, E_REWARD, E_BUSY, E_CALLBACK, E_REENTERED = (
     -n for n in range(10)
@@ -366,14 +447,53 @@ def _load(path: Path, kind: type[c.CDLL]) -> Any:
             f"{path}: no such library. It is made when the package is installed: pip install ."
         )
     try:
-        library = kind(str(path))
-        for name, (result, arguments) in FUNCTIONS.items():
-            function = getattr(library, name)
-            function.restype = result
-            function.argtypes = arguments
+        return _declare(kind(str(path)), FUNCTIONS)
     except (OSError, AttributeError) as error:
         raise LibraryError(f"{path}: cannot be used: {error}") from error
+
+
+def _declare(library: Any, functions: dict[str, tuple[Any, list[Any]]]) -> Any:
+    for name, (result, arguments) in functions.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
     return library
+
+
+def load_seeing(name: str, functions: dict[str, tuple[Any, list[Any]]]) -> Any:
+    """Load a library that is there where OpenCV is.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``rlvc-vision``.
+    functions : dict
+        What is in it.
+
+    Returns
+    -------
+    ctypes.CDLL
+
+    Raises
+    ------
+    ImportError
+        The package was made without it, or OpenCV is not here; the text says what to install.
+    """
+    path = PATH.with_name(f"{_PREFIX}{name}{_SUFFIX}")
+    if not path.exists():
+        raise ImportError(
+            f"pictures need {path.name}, which is not in this installation of rlvc ({path.parent}). It "
+            "is made where OpenCV's headers are found: on Debian 12, apt-get install libopencv-dev "
+            "nlohmann-json3-dev, then install rlvc from its sources again: "
+            f"{sys.executable} -m pip install ."
+        )
+    try:
+        return _declare(c.CDLL(str(path)), functions)
+    except (OSError, AttributeError) as error:
+        raise ImportError(
+            f"{path}: cannot be loaded: {error}. It needs the OpenCV that it was made with: on Debian "
+            "12, apt-get install libopencv-dev"
+        ) from error
 
 
 def check_version(found: str, path: Path) -> None:

@@ -327,7 +327,7 @@ class Descriptors(Domain):
         radius: float,
         form: Literal["float", "int8"] = "float",
         candidates: int = 64,
-        draws: int = 4,
+        draws: int = 8,
         margin: float = 1.8,
     ) -> None:
         self._parameters = (points, dimensions, radius, form, candidates, draws, margin)

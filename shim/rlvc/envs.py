@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""The paper's maze as a Gymnasium environment: ``rlvc/BinaryGridworld-v0``.
+"""The paper's mazes as Gymnasium environments: ``rlvc/BinaryGridworld-v0``, ``rlvc/TiledGridworld-v0``.
 
-It plays in the maze of ``examples/gridworld``, as the tool ``run_gridworld`` does. ``import rlvc.envs``
-registers it.
+They play in the maze of ``examples/gridworld``, as the tool ``run_gridworld`` does. ``import rlvc.envs``
+registers them.
 """
 
 from __future__ import annotations
 
+import abc
 import ctypes
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
-from .errors import ConfigError, MazeError
+from . import _lib, objects
+from .errors import ConfigError, MazeError, PictureError
 
 try:
     import gymnasium
@@ -105,39 +107,27 @@ class Maze:
         return percepts
 
 
-class BinaryGridworld(gymnasium.Env[npt.NDArray[np.int8], np.int64]):
-    """The Binary Gridworld (section 6.1): a maze whose cells are seen as strings of bits.
+SMALL = "....\n.#..\n...*\n"
+"""A maze of ten cells, about as large as that of figure 4."""
+
+_Observation = TypeVar("_Observation")
+
+
+class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
+    """What the two environments have in common: a maze, and an agent's place in it.
 
     A move into the exit earns 100 and ends the episode; any other earns -1. An episode starts at a
-    random free cell. An observation is MultiBinary: x, lowest bit first; distractors, drawn anew each
-    time; y, lowest bit first.
+    random free cell.
 
-    Parameters
+    Attributes
     ----------
-    maze : str, Path or None
-        A maze's text, or a file with it; None is the paper's.
-    distractors : int
-        Bits that say nothing.
-    slip : float
-        Probability that a move goes astray, in one of the three other directions.
-    render_mode : {"ansi"} or None
-
-    Raises
-    ------
-    MazeError
-        The maze is none.
-    ConfigError
-        ``slip`` is not in [0, 1], or an observation would have more than 1024 bits.
+    maze : Maze
     """
 
     metadata = {"render_modes": ["ansi"]}  # noqa: RUF012 - as Gymnasium has it
 
     def __init__(
-        self,
-        maze: str | Path | None = None,
-        distractors: int = 11,
-        slip: float = 0.0,
-        render_mode: str | None = None,
+        self, maze: str | Path | None, distractors: int, slip: float, render_mode: str | None
     ) -> None:
         if isinstance(maze, Path):
             try:
@@ -152,11 +142,8 @@ class BinaryGridworld(gymnasium.Env[npt.NDArray[np.int8], np.int64]):
         self.render_mode = render_mode
         if not 0 <= distractors <= _lib.BITS_MAX or self.maze.bits(distractors) > _lib.BITS_MAX:
             raise ConfigError(f"distractors: {distractors}: at most {_lib.BITS_MAX} bits in all")
-        self._bits = self.maze.bits(distractors)
-        self.observation_space = spaces.MultiBinary(self._bits)
         self.action_space = spaces.Discrete(4)
         self._world = _lib.World()
-        self._percept = np.zeros((self._bits + 7) // 8, np.uint8)
         self._over = True
         self._seed(0)
 
@@ -171,16 +158,16 @@ class BinaryGridworld(gymnasium.Env[npt.NDArray[np.int8], np.int64]):
         if status != 0:
             raise ConfigError(f"slip: {self.slip} is not in [0, 1]")
 
-    def _observe(self) -> npt.NDArray[np.int8]:
-        _lib.call.rlvc_shim_world_percept(ctypes.byref(self._world), self._percept.ctypes.data)
-        return np.unpackbits(self._percept, count=self._bits, bitorder="little").astype(np.int8)
+    @abc.abstractmethod
+    def _observe(self) -> _Observation:
+        """What is seen from the agent's cell."""
 
     def _info(self) -> dict[str, Any]:
         return {"x": self._world.cell % self.maze.width, "y": self._world.cell // self.maze.width}
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[npt.NDArray[np.int8], dict[str, Any]]:
+    ) -> tuple[_Observation, dict[str, Any]]:
         """Start an episode at a random free cell.
 
         Parameters
@@ -204,7 +191,7 @@ class BinaryGridworld(gymnasium.Env[npt.NDArray[np.int8], np.int64]):
         self._over = False
         return self._observe(), self._info()
 
-    def step(self, action: Any) -> tuple[npt.NDArray[np.int8], float, bool, bool, dict[str, Any]]:
+    def step(self, action: Any) -> tuple[_Observation, float, bool, bool, dict[str, Any]]:
         """Move: 0 up, 1 right, 2 down, 3 left.
 
         Parameters
@@ -244,10 +231,128 @@ class BinaryGridworld(gymnasium.Env[npt.NDArray[np.int8], np.int64]):
         return "\n".join("".join(row) for row in rows)
 
 
+class BinaryGridworld(Gridworld[npt.NDArray[np.int8]]):
+    """The Binary Gridworld (section 6.1): a maze whose cells are seen as strings of bits.
+
+    An observation is MultiBinary: x, lowest bit first; distractors, drawn anew each time; y, lowest bit
+    first. See :class:`Gridworld` for the rest.
+
+    Parameters
+    ----------
+    maze : str, Path or None
+        A maze's text, or a file with it; None is the paper's.
+    distractors : int
+        Bits that say nothing.
+    slip : float
+        Probability that a move goes astray, in one of the three other directions.
+    render_mode : {"ansi"} or None
+
+    Raises
+    ------
+    MazeError
+        The maze is none.
+    ConfigError
+        ``slip`` is not in [0, 1], or an observation would have more than 1024 bits.
+    """
+
+    def __init__(
+        self,
+        maze: str | Path | None = None,
+        distractors: int = 11,
+        slip: float = 0.0,
+        render_mode: str | None = None,
+    ) -> None:
+        super().__init__(maze, distractors, slip, render_mode)
+        self._bits = self.maze.bits(distractors)
+        self.observation_space = spaces.MultiBinary(self._bits)
+        self._percept = np.zeros((self._bits + 7) // 8, np.uint8)
+
+    def _observe(self) -> npt.NDArray[np.int8]:
+        _lib.call.rlvc_shim_world_percept(ctypes.byref(self._world), self._percept.ctypes.data)
+        return np.unpackbits(self._percept, count=self._bits, bitorder="little").astype(np.int8)
+
+
+class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
+    """The Tiled Gridworld (section 6.2): a maze in whose cells objects lie, seen as pictures.
+
+    An observation is a Box of uint8 [height, width, 3], red first: a picture of the object in the
+    agent's cell, from one of its angles at random; black at the exit. See :class:`Gridworld` for the
+    rest. An :class:`rlvc.vision.Eye` makes percepts of it.
+
+    Parameters
+    ----------
+    maze : str, Path or None
+        A maze's text, such as :data:`SMALL`, or a file with it; None is Sutton's, of 46 cells.
+    pictures : ndarray, str, Path or None
+        An array of uint8 [objects, height, width, 3] or [objects, views, height, width, 3]; or a folder
+        such as that of COIL-100; None renders objects. The two last need the vision module:
+        :func:`rlvc.objects.find` reads and renders.
+    angles : sequence of int
+        In degrees, from which objects are seen; of no meaning for an array.
+    placement : int or None
+        Of which objects lie where: a number puts them at random, with that seed; None in their order.
+    slip : float
+        Probability that a move goes astray, in one of the three other directions.
+    render_mode : {"ansi"} or None
+
+    Attributes
+    ----------
+    objects : rlvc.objects.Objects
+    object_of : ndarray of int, [height * width]
+        Which object lies in each cell; -1 where none does.
+
+    Raises
+    ------
+    MazeError
+        The maze is none.
+    PictureError
+        There are fewer objects than cells, or what is no picture that can be used.
+    ConfigError
+        ``slip`` is not in [0, 1].
+    ImportError
+        The package has no vision module; the text says what to install.
+    """
+
+    def __init__(
+        self,
+        maze: str | Path | None = None,
+        pictures: npt.NDArray[np.uint8] | str | Path | None = None,
+        angles: Sequence[int] = (0,),
+        placement: int | None = None,
+        slip: float = 0.0,
+        render_mode: str | None = None,
+    ) -> None:
+        super().__init__(maze, 0, slip, render_mode)
+        signs = np.array([list(row) for row in self.maze.rows]).ravel()
+        cells = np.flatnonzero(signs == ".")
+        if pictures is None or isinstance(pictures, str | Path):
+            self.objects = objects.find(pictures, angles, wanted=len(cells))
+        else:
+            self.objects = objects.given(pictures)
+        count = len(self.objects.names)
+        if count < len(cells):
+            raise PictureError(f"pictures: of {count} objects, and the maze has {len(cells)} cells")
+        order = np.arange(count)
+        if placement is not None:
+            np.random.default_rng(placement).shuffle(order)
+        self.object_of = np.full(len(signs), -1)
+        self.object_of[cells] = order[: len(cells)]
+        self.observation_space = spaces.Box(0, 255, self.objects.pictures.shape[2:], np.uint8)
+
+    def _observe(self) -> npt.NDArray[np.uint8]:
+        here = self.object_of[self._world.cell]
+        if here < 0:
+            return np.zeros(self.objects.pictures.shape[2:], np.uint8)
+        views = self.objects.pictures[here]
+        return np.array(views[int(self.np_random.integers(len(views)))])
+
+
 def register() -> None:
-    """Register ``rlvc/BinaryGridworld-v0``; doing so twice does nothing."""
-    if "rlvc/BinaryGridworld-v0" not in gymnasium.registry:
-        gymnasium.register("rlvc/BinaryGridworld-v0", entry_point="rlvc.envs:BinaryGridworld")
+    """Register the environments; doing so twice does nothing."""
+    for kind in (BinaryGridworld, TiledGridworld):
+        name = f"rlvc/{kind.__name__}-v0"
+        if name not in gymnasium.registry:
+            gymnasium.register(name, entry_point=f"rlvc.envs:{kind.__name__}")
 
 
 register()

@@ -73,6 +73,14 @@ class PerceptError(ArrayError):
     """A percept is of the wrong size, dtype or shape."""
 
 
+class PictureError(ArrayError):
+    """A picture is of the wrong dtype, shape or size, or the pictures of a folder cannot be used."""
+
+
+class MetricError(Error, ValueError):
+    """A metric's text is damaged, it belongs to other vectors, is missing, or cannot be fitted."""
+
+
 class SpaceError(Error, TypeError):
     """A Gymnasium space that cannot be encoded into bits, or has no finite set of actions."""
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _lib
 from .agent import Agent
 from .config import Config
-from .domain import Bits
+from .domain import Bits, Domain
 from .encode import Encoder, needs_samples
 from .errors import ConfigError, SpaceError
 from .results import CHOICE
@@ -343,6 +343,21 @@ def _note(run: Run, learner: _Learner, splits: int, bar: Any) -> None:
         bar.set_postfix({"classes": statistics.classes, "return": f"{mean:.3g}", "splits": splits})
 
 
+def domain_of(encoder: Any) -> Domain:
+    """Give the domain of an encoder's percepts: its own, or that of bits.
+
+    Parameters
+    ----------
+    encoder : object
+
+    Returns
+    -------
+    Domain
+    """
+    domain = getattr(encoder, "domain", None)
+    return domain if isinstance(domain, Domain) else Bits(encoder.bits)
+
+
 def default_config(actions: int, interactions: int, seed: int, changes: dict[str, Any]) -> Config:
     """Give the config of :func:`learn`: that of an agent, with room for all interactions.
 
@@ -394,7 +409,8 @@ def learn(
     interactions : int
         How many to have.
     encoder : object or None
-        Turns observations into percepts: it has ``bits`` and ``encode(observation) -> bytes``. None:
+        Turns observations into percepts: it has ``encode(observation) -> bytes`` and ``bits``, or the
+        ``domain`` that the percepts are of, as :class:`rlvc.vision.Eye` has. None:
         an :class:`~rlvc.encode.Encoder` for the environment's space; where that has a Box, the first
         interactions (at most 1000, and a tenth of all) are a random walk that finds the thresholds.
     every : int or None
@@ -447,7 +463,7 @@ def learn(
             samples = [one for transition in walked for one in transition[0]]
         encoder = Encoder(stream.observation_space, samples, thresholds)
     settings = default_config(stream.actions, interactions, seed % 2**32, config)
-    run = Run(Agent(Bits(encoder.bits), settings), encoder, seed, stream.start)
+    run = Run(Agent(domain_of(encoder), settings), encoder, seed, stream.start)
     for transition in walked:
         choices = np.zeros(len(transition[1]), CHOICE)
         choices["action"] = transition[1]

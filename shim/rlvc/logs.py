@@ -20,10 +20,10 @@ import numpy as np
 import numpy.typing as npt
 
 from .agent import Agent
-from .domain import Bits
+from .domain import Bits, Domain
 from .encode import Encoder, Numbers, needs_samples
 from .errors import ConfigError, LogError, PerceptError
-from .learning import Record, Run, default_config
+from .learning import Record, Run, default_config, domain_of
 from .results import CHOICE
 
 _FIELDS = ("observations", "actions", "rewards", "terminated")
@@ -446,8 +446,8 @@ def _in_words(name: str, columns: list[str]) -> str:
 
 def _encoded(
     log: Log, encoder: Encoder | None, space: Any, thresholds: int
-) -> tuple[int, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
-    """How many bits a percept has, the encoder, and the percepts before and after."""
+) -> tuple[Domain, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
+    """The domain of the percepts, the encoder, and the percepts before and after."""
     values = None if isinstance(log.before, list) else np.asarray(log.before)
     if encoder is None and space is None and values is not None and values.dtype == np.bool_:
         if values.ndim != 2:
@@ -455,7 +455,7 @@ def _encoded(
                 f"{log.where}: observations: bool{list(values.shape)}, not bool[n, bits]"
             )
         pack = [np.packbits(v, axis=1, bitorder="little") for v in (values, np.asarray(log.after))]
-        return values.shape[1], None, pack[0], pack[1]
+        return Bits(values.shape[1]), None, pack[0], pack[1]
     if encoder is None:
         chosen = space if space is not None else _space_of(log)
         samples: list[Any] = []
@@ -474,7 +474,7 @@ def _encoded(
             except PerceptError as error:
                 raise LogError(f"{log.where}: {name}: index {i}: {error}") from error
         sides.append(np.frombuffer(b"".join(records), np.uint8).reshape(len(log), -1))
-    return encoder.bits, encoder, sides[0], sides[1]
+    return domain_of(encoder), encoder, sides[0], sides[1]
 
 
 def learn_from(
@@ -534,9 +534,9 @@ def learn_from(
         raise LogError(
             f"{read_log.where}: actions: index {index}: {read_log.actions[index]} is not in [0, {count})"
         )
-    bits, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
+    domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
     settings = default_config(count, len(read_log), int(config.get("seed", 1)), config)
-    run = Run(Agent(Bits(bits), settings), encoder, settings.seed)
+    run = Run(Agent(domain, settings), encoder, settings.seed)
     choices = np.zeros(len(read_log), CHOICE)
     choices["action"] = read_log.actions
     if read_log.exploited is not None:

@@ -16,6 +16,15 @@ hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, d
 hypothesis.settings.load_profile("fixed")
 
 
+def without_vision():
+    """Why the package has no vision module; empty if it has one."""
+    try:
+        import rlvc.vision  # noqa: F401
+    except ImportError as error:
+        return str(error)
+    return ""
+
+
 @pytest.fixture(scope="session")
 def caller(tmp_path_factory):
     """The C program that makes the calls it reads, linked with a core of its own."""

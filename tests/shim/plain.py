@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Run by tools/test with nothing installed but the wheel and numpy, and with no program to be found."""
+"""Run by tools/test with nothing installed but the wheel and numpy, and with no program to be found.
+
+plain.py seeing|blind       a wheel that was made with vision, or without
+"""
 
 import contextlib
 import shutil
+import sys
 
 import numpy as np
 
@@ -22,7 +26,17 @@ run = rlvc.learn_from({
 })  # fmt: skip
 assert [run.act(np.array([x])) for x in (0.1, 0.9)] == [0, 1]
 
-for module, wanted in (("envs", "rlvc[gym]"), ("plot", "rlvc[plot]"), ("vision", "libopencv-dev")):
+missing = {"envs": "rlvc[gym]", "plot": "rlvc[plot]"}
+if sys.argv[1] == "seeing":
+    from rlvc import vision
+
+    extractor = vision.Extractor(points=5)
+    agent = rlvc.Agent(extractor.domain(radius=0.5), 2)
+    agent.begin(extractor.extract(random.integers(256, size=(40, 40, 3), dtype=np.uint8)))
+else:
+    missing["vision"] = "libopencv-dev"
+
+for module, wanted in missing.items():
     said = ""
     with contextlib.suppress(ModuleNotFoundError):
         try:
@@ -30,4 +44,4 @@ for module, wanted in (("envs", "rlvc[gym]"), ("plot", "rlvc[plot]"), ("vision",
         except ImportError as error:
             said = str(error)
     assert wanted in said, (module, said)
-print("imports and learns with numpy alone")
+print(f"imports and learns with numpy alone, {sys.argv[1]}")

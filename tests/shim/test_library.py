@@ -3,6 +3,7 @@
 
 import ctypes
 import re
+import shutil
 import subprocess
 import sys
 
@@ -17,12 +18,13 @@ FUNCTION = re.compile(r"^RLVC_API\s+([\w\s*]+?[\s*])(rlvc_\w+)\(([^;]*)\);", re.
 SCALARS = {
     "uint8_t": ctypes.c_uint8, "uint32_t": ctypes.c_uint32, "size_t": ctypes.c_size_t,
     "float": ctypes.c_float, "int": ctypes.c_int, "rlvc_status": ctypes.c_int,
-    "rlvc_choice": _lib.Choice, "rlvc_write": _lib.WRITE, "void": None,
+    "rlvc_choice": _lib.Choice, "rlvc_write": _lib.WRITE, "void": None, "int32_t": ctypes.c_int32,
+    "rlvc_vision_status": ctypes.c_int,
 }  # fmt: skip
 
 
-def declared():
-    for header in HEADERS:
+def declared(headers):
+    for header in headers:
         text = COMMENT.sub("", header.read_text(encoding="utf-8"))
         for result, name, arguments in FUNCTION.findall(text):
             flat = re.sub(r"\(\*\w+\)\s*\([^()]*\)", "*callback", arguments)
@@ -38,16 +40,28 @@ def kind(text):
     return SCALARS[words[0]]
 
 
-def test_every_function_is_declared_as_in_its_header():
-    functions = {name: (result, taken) for name, result, taken in declared()}
-    assert set(functions) == set(_lib.FUNCTIONS)
+TABLES = {
+    "core": (HEADERS, _lib.FUNCTIONS),
+    "vision": ([ROOT / "vision/include/rlvc/vision.h"], _lib.VISION),
+    "objects": ([ROOT / "shim/native/objects.h"], _lib.OBJECTS),
+}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_every_function_is_declared_as_in_its_header(table):
+    headers, table = TABLES[table]
+    functions = {name: (result, taken) for name, result, taken in declared(headers)}
+    assert set(functions) == set(table)
     for name, (result, taken) in functions.items():
-        found_result, found = _lib.FUNCTIONS[name]
+        found_result, found = table[name]
         assert len(found) == len(taken), name
         if "*" not in result:
             assert found_result is SCALARS[result], name
         for text, argument in zip(taken, found, strict=True):
             wanted = kind(text)
+            if wanted is None and argument is ctypes.c_char_p:
+                assert text.startswith("const char *"), f"{name}: {text}"
+                continue
             assert argument is (ctypes.c_void_p if wanted is None else wanted), f"{name}: {text}"
 
 
@@ -117,6 +131,31 @@ def test_a_missing_or_foreign_library_is_said_to_be_so(tmp_path, content):
     assert str(path) in done.stderr
 
 
-def test_vision_says_what_to_install():
-    with pytest.raises(ImportError, match="libopencv-dev"):
-        import rlvc.vision  # noqa: F401
+def said_by_vision(folder):
+    """What ``import rlvc.vision`` says where the libraries are those of a folder."""
+    done = subprocess.run(
+        [sys.executable, "-c", "import rlvc\nimport rlvc.vision"], capture_output=True, text=True,
+        env={"RLVC_PYTHON_LIBRARY": str(folder / _lib.PATH.name), "PYTHONPATH": ":".join(sys.path)},
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith("ImportError: ")
+    return done.stderr.splitlines()[-1]
+
+
+def test_vision_says_what_to_install(tmp_path):
+    """Of a package that was made without it, and of one whose OpenCV is gone."""
+    shutil.copy(_lib.PATH, tmp_path)
+    said = said_by_vision(tmp_path)
+    assert "libopencv-dev" in said
+    assert "pip install" in said
+    for name, rest in (
+        ("gone", []),
+        ("rlvc-vision", [f"-L{tmp_path}", "-Wl,--no-as-needed", "-lgone"]),
+    ):
+        subprocess.run(
+            ["gcc", "-shared", "-o", tmp_path / f"lib{name}.so", "-x", "c", "/dev/null", *rest], check=True
+        )  # fmt: skip
+    (tmp_path / "libgone.so").unlink()
+    said = said_by_vision(tmp_path)
+    assert "libgone.so" in said
+    assert "libopencv-dev" in said

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `run_gridworld tiled`:
 //
-//     options     what the user asked for            pictures, render   what lies in the cells
+//     options     what the user asked for            pictures           what lies in the cells
 //     gallery     their percepts, by the vision module
 //     learning    one run                            report             what is shown and written
 #include "../tiled.h"

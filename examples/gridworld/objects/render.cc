@@ -3,7 +3,7 @@
 // an upright axis: its outline is one of a few shapes, its surface is painted with a texture of patches,
 // stripes and rings in colours of its own, and a light from the upper left shades it. Turning it by an
 // angle brings other parts of the surface into view, as a turntable does.
-#include "pictures.h"
+#include "objects.h"
 
 #include <opencv2/imgproc.hpp>
 

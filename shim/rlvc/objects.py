@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""The objects that lie in the cells of the Tiled Gridworld (section 6.2), each seen from some angles."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _lib
+from .errors import PictureError, RangeError
+
+
+class Objects(NamedTuple):
+    """Objects and their pictures.
+
+    Attributes
+    ----------
+    names : list of str
+    angles : list of int
+        In degrees, from which each is seen.
+    pictures : ndarray of uint8, [objects, angles, height, width, 3]
+        Red first.
+    folder : str or None
+        Where they are from; "" if they were rendered, None if they were given.
+    """
+
+    names: list[str]
+    angles: list[int]
+    pictures: npt.NDArray[np.uint8]
+    folder: str | None
+
+    def view(self, index: int, angle: int) -> npt.NDArray[np.uint8]:
+        """Give a picture: uint8 [height, width, 3]."""
+        return np.asarray(self.pictures[index, self.angles.index(angle)])
+
+
+def given(pictures: npt.NDArray[np.uint8]) -> Objects:
+    """Take pictures from an array.
+
+    Parameters
+    ----------
+    pictures : ndarray of uint8, [objects, height, width, 3] or [objects, views, height, width, 3]
+
+    Returns
+    -------
+    Objects
+        Their views count as angles 0, 1, ...
+
+    Raises
+    ------
+    PictureError
+        It is of another dtype or shape.
+    """
+    if not isinstance(pictures, np.ndarray) or pictures.dtype != np.uint8:
+        kind = getattr(pictures, "dtype", type(pictures).__name__)
+        raise PictureError(f"pictures: {kind}, not an array of uint8")
+    if pictures.ndim == 4:
+        pictures = pictures[:, None]
+    if pictures.ndim != 5 or pictures.shape[4] != 3 or 0 in pictures.shape:
+        raise PictureError(
+            f"pictures: {list(pictures.shape)}, not [objects, height, width, 3] or "
+            "[objects, views, height, width, 3]"
+        )
+    names = [f"object{i + 1}" for i in range(len(pictures))]
+    return Objects(names, list(range(pictures.shape[1])), pictures, None)
+
+
+def find(
+    folder: str | Path | None = None, angles: Sequence[int] = (0,), wanted: int = 1
+) -> Objects:
+    """Read the pictures of a folder, or render objects; by the code of ``run_gridworld tiled``.
+
+    Parameters
+    ----------
+    folder : str, Path or None
+        With ``objN__ANGLE.*`` as of COIL-100, or any other pictures, which are then an object each.
+        None: objects are rendered.
+    angles : sequence of int
+        In degrees, [0, 360). Objects that are not there from all of them are left out.
+    wanted : int
+        At least so many objects, [1, 65536]; rendered are just these.
+
+    Returns
+    -------
+    Objects
+
+    Raises
+    ------
+    ImportError
+        The package has no vision module; the text says what to install.
+    PictureError
+        There are fewer objects, or what is no picture that can be used; the text says which.
+    RangeError
+        An angle or ``wanted`` is out of range.
+    """
+    library = _lib.load_seeing("rlvc-objects", _lib.OBJECTS)
+    chosen = list(dict.fromkeys(int(angle) for angle in angles))
+    if not chosen or not all(0 <= angle < 360 for angle in chosen):
+        raise RangeError(f"angles: {list(angles)} are not in [0, 360)")
+    if not 1 <= wanted <= 65536:
+        raise RangeError(f"wanted: {wanted} is not in [1, 65536]")
+    where = "" if folder is None else str(folder)
+    handle, text = ctypes.c_void_p(), ctypes.create_string_buffer(512)
+    numbers = np.array(chosen, np.int32)
+    status = library.rlvc_shim_objects_find(
+        os.fsencode(where),
+        numbers.ctypes.data,
+        len(chosen),
+        wanted,
+        ctypes.byref(handle),
+        text,
+        len(text),
+    )
+    if status != 0:
+        raise PictureError(text.value.decode(errors="replace"))
+    try:
+        sizes = [ctypes.c_uint32() for _ in range(3)]
+        library.rlvc_shim_objects_size(handle, *(ctypes.byref(size) for size in sizes))
+        count, height, width = (size.value for size in sizes)
+        names = [library.rlvc_shim_objects_name(handle, i).decode() for i in range(count)]
+        pictures = np.empty((count, len(chosen), height, width, 3), np.uint8)
+        for i in range(count):
+            for j, angle in enumerate(chosen):
+                library.rlvc_shim_objects_copy(handle, i, angle, pictures[i, j].ctypes.data)
+    finally:
+        library.rlvc_shim_objects_free(handle)
+    return Objects(names, chosen, pictures, where)

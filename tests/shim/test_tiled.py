@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""The Tiled Gridworld: the environment, and an agent that learns it from pictures.
+
+RLVC_RUN_GRIDWORLD names the tool for the test that holds the package to it."""
+
+import json
+import os
+import subprocess
+
+import gymnasium
+import numpy as np
+import pytest
+from conftest import without_vision
+from gymnasium import spaces
+from gymnasium.utils.env_checker import check_env
+
+import rlvc
+import rlvc.envs
+from rlvc import errors, objects
+
+U8 = np.uint8
+TOOL = os.environ.get("RLVC_RUN_GRIDWORLD")
+sees = pytest.mark.skipif(bool(without_vision()), reason=without_vision())
+
+
+def flat(count=10, views=1):
+    """A picture of one colour for each object and view."""
+    numbers = np.arange(count * views, dtype=U8).reshape(count, views, 1, 1, 1)
+    return np.broadcast_to(numbers, (count, views, 5, 7, 3)).copy()
+
+
+def test_a_proper_environment():
+    made = gymnasium.make("rlvc/TiledGridworld-v0", maze=rlvc.envs.SMALL, pictures=flat())
+    check_env(made.unwrapped, skip_render_check=True)
+    assert made.observation_space == spaces.Box(0, 255, (5, 7, 3), U8)
+
+
+def test_each_cell_has_its_object():
+    env = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, flat(12, 2), placement=5)
+    assert env.object_of[[5, 11]].tolist() == [-1, -1]
+    assert len(set(env.object_of.tolist())) == 11
+    seen = {}
+    for seed in range(300):
+        observation, info = env.reset(seed=seed)
+        seen.setdefault(4 * info["y"] + info["x"], set()).add(int(observation[0, 0, 0]))
+    assert {cell: {2 * o, 2 * o + 1} for cell, o in enumerate(env.object_of) if o >= 0} == seen
+    other = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, flat(12, 2), placement=5)
+    assert (other.object_of == env.object_of).all()
+    env = rlvc.envs.TiledGridworld("*.\n", flat(1))
+    env.reset(seed=1)
+    observation, reward, terminated, _, _ = env.step(3)
+    assert (reward, terminated, observation.max()) == (100.0, True, 0)
+
+
+@pytest.mark.parametrize(
+    "pictures", [flat(9), flat()[0], flat().astype(float), np.zeros((0, 5, 7, 3), U8), 5]
+)
+def test_wrong_pictures(pictures):
+    with pytest.raises(errors.PictureError, match="pictures"):
+        rlvc.envs.TiledGridworld(rlvc.envs.SMALL, pictures)
+
+
+@sees
+def test_it_is_learnt_from_pictures():
+    from rlvc import vision
+
+    env = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, angles=(0, 10))
+    check_env(env, skip_render_check=True)
+    pictures = env.objects.pictures
+    metric = vision.Metric.fit(
+        pictures.reshape(-1, *pictures.shape[2:]), np.repeat(np.arange(10), 2),
+        sigma=4.0, form="int8", normalise=True, share=0.035,
+    )  # fmt: skip
+    eye = vision.Eye(vision.Extractor(metric=metric))
+    run = rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+    again = rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+    assert run.text() == again.text()
+    assert isinstance(run.agent.domain, rlvc.Descriptors)
+    best = [[(1, 2), 1, (1, 2), 2], [2, None, (1, 2), 2], [1, 1, 1, None]]
+    for cell, number in enumerate(env.object_of):
+        for picture in pictures[number] if number >= 0 else ():
+            wanted = best[cell // 4][cell % 4]
+            assert run.act(picture) in (wanted if isinstance(wanted, tuple) else (wanted,)), cell
+    with pytest.raises(errors.PictureError):
+        run.act(picture.astype(float))
+
+
+@sees
+def test_a_log_of_pictures():
+    from rlvc import vision
+
+    pictures = objects.find(wanted=4).pictures[:, 0]
+    eye = vision.Eye(vision.Extractor(metric=vision.Metric.fit(pictures)))
+    shown = np.arange(200) % 4
+    actions = np.arange(200) // 4 % 2
+    log = {
+        "observations": pictures[shown], "next_observations": pictures[shown], "actions": actions,
+        "rewards": (actions == shown % 2) * 1.0, "terminated": np.ones(200, bool),
+    }  # fmt: skip
+    run = rlvc.learn_from(log, encoder=eye)
+    assert [run.act(picture) for picture in pictures] == [0, 1, 0, 1]
+
+
+@sees
+@pytest.mark.skipif(not TOOL, reason="RLVC_RUN_GRIDWORLD is not set")
+def test_parity_with_the_tool(tmp_path):
+    """The same objects, and the same points of their pictures by the metric that the tool fitted."""
+    from rlvc import vision
+
+    subprocess.run(
+        [TOOL, "tiled", "--maze", "small", "--interactions", "200", "--json", tmp_path / "run.json",
+         "--save-metric", tmp_path / "metric.json"],
+        check=True, capture_output=True,
+    )  # fmt: skip
+    made = json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))
+    metric = vision.Metric.load(tmp_path / "metric.json")
+    assert metric.tau == np.float32(made["tau"])
+    extractor = vision.Extractor(metric=metric)
+    found = objects.find(wanted=10)
+    for i, told in enumerate(made["objects"]):
+        assert told["name"] == found.names[i]
+        # Blue first, as the tool has it: a sum over channels depends on their order in its last bit.
+        points = extractor.look(found.view(i, told["angle"])[:, :, ::-1], "bgr").points
+        assert np.array_equal(np.array(told["points"], np.float32), points)
+    domain, names = extractor.domain(), set()
+    for test in made["runs"][0]["tests"]:
+        feature = np.zeros(1, domain.feature_dtype)
+        feature["radius"] = test["radius"]
+        view = found.view(test["object"], test["angle"])[:, :, ::-1]
+        sight = extractor.look(view, "bgr")
+        for vector in sight.vectors:
+            feature["vector"] = vector
+            names.add(domain.name(feature[0]))
+    assert {test["name"] for test in made["runs"][0]["tests"]} <= names
