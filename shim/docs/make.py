@@ -4,12 +4,13 @@
 
     make.py FOLDER
 
-copies the pages into the folder, puts the examples in where a page asks for them (--8<-- "FILE:LINE", from
+copies the pages into the folder, puts the examples in where a page asks for them (<<< FILE:LINE, from
 that line on), draws the pictures and writes c.md from the headers.
 """
 
 import pathlib
 import re
+import subprocess
 import sys
 
 import matplotlib as mpl
@@ -19,11 +20,12 @@ from matplotlib.figure import Figure
 import rlvc
 import rlvc.envs
 from rlvc import plot, report
+from rlvc.plot import mazes
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#9a9a9a"
-INCLUDE = re.compile(r'^--8<-- "(.*):(\d+)"$', re.MULTILINE)
+INCLUDE = re.compile(r"^<<< (.*):(\d+)$", re.MULTILINE)
 
 
 def pages(folder):
@@ -71,7 +73,7 @@ def draw_visits(env, rows, file):
         table[row[5][1], row[5][0]] += 1
     figure = Figure(figsize=(6, 4), layout="constrained")
     axes = figure.subplots()
-    plot._board(axes, env.maze.rows, f"{len(rows)} interactions, by cell")
+    mazes.board(axes, env.maze.rows, f"{len(rows)} interactions, by cell")
     extent = (0, env.maze.width, env.maze.height, 0)
     shown = axes.imshow(table, cmap="cividis", extent=extent, zorder=0)
     figure.colorbar(shown, ax=axes, label="interactions", shrink=0.8)
@@ -138,8 +140,8 @@ def pictures(folder):
     run = rlvc.learn(env, 6000, every=100, seed=1, discount=0.9, alpha=0.003, callback=look)
     final = report.make(run, env)
     small = rlvc.learn(env, 3000, seed=1, discount=0.9, alpha=0.003, classes=4)
-    for kind, draw in plot.KINDS.items():
-        draw(final, folder / f"{kind}.svg")
+    for kind in ("maze", "values", "curve", "splits", "tree"):
+        plot.KINDS[kind](final, folder / f"{kind}.svg")
     plot.maze(next(iter(stages.values())), folder / "step1.svg")
     rows = visits(rlvc.envs.BinaryGridworld(), 3000)
     draw_visits(env, rows, folder / "step2.svg")
@@ -149,12 +151,19 @@ def pictures(folder):
     plot.maze(final, folder / "step6.svg")
 
 
+def tiled(folder):
+    """What the example draws of the Tiled Gridworld; needs the vision module."""
+    example = ROOT / "examples/06_tiled_figures.py"
+    subprocess.run([sys.executable, example, folder], check=True, stdout=subprocess.DEVNULL)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     (folder / "pictures").mkdir(parents=True, exist_ok=True)
     pages(folder)
     c_page(folder)
     pictures(folder / "pictures")
+    tiled(folder / "pictures")
 
 
 if __name__ == "__main__":

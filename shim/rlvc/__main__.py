@@ -18,6 +18,7 @@ from .learning import Run, learn
 from .logs import learn_from
 from .snapshot import read_file
 
+_PICTURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
 _CURVES = ("discount", "epsilon", "alpha", "tolerance")
 
 
@@ -79,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Draws a report that 'learn --json' or run_gridworld --json wrote.",
     )
     two.add_argument("run", metavar="RUN.json")
-    two.add_argument("kind", choices=("maze", "values", "curve", "splits", "tree"))
+    two.add_argument("kind", choices=_PICTURES)
     two.add_argument("file", metavar="FILE", help="a .png or a .svg")
 
     three = commands.add_parser(

@@ -5,7 +5,9 @@
 ``"rlvc learn"`` and those members that make sense: ``seed``, ``interactions``, ``classes``, ``depth``,
 ``last_split_step``, ``memory_bytes``, ``history``, ``tree``, and for the Binary Gridworld ``maze``,
 ``cells``, ``cell_classes`` and ``cell_actions``. Its ``history`` has ``mean_return`` in place of
-``optimal_cells``, and ``names`` says what each bit says.
+``optimal_cells``, and ``names`` says what each bit says. For the Tiled Gridworld, seen by an
+:class:`rlvc.vision.Eye`, there are ``cell``, ``objects`` and ``tests`` as ``run_gridworld tiled --json``
+has them.
 """
 
 from __future__ import annotations
@@ -52,6 +54,60 @@ def _cells(run: Run, env: Any) -> dict[str, Any]:
     }
 
 
+def _seen(run: Run, env: Any) -> dict[str, Any]:
+    """What lies in the cells of the Tiled Gridworld, and where the tests' features were found."""
+    from .envs import ACTIONS, TiledGridworld
+
+    world = getattr(env, "unwrapped", env)
+    look = getattr(run.encoder, "look", None)
+    if not isinstance(world, TiledGridworld) or look is None:
+        return {}
+    maze, objects = world.maze, world.objects
+    sights = [[look(view) for view in views] for views in objects.pictures]
+    places: dict[bytes, dict[str, Any]] = {}
+    for number, views in enumerate(sights):
+        for angle, sight in zip(objects.angles, views, strict=True):
+            for vector, (x, y, _) in zip(sight.vectors, sight.points.tolist(), strict=True):
+                place = {"object": number, "angle": angle, "x": x, "y": y}
+                places.setdefault(vector.tobytes(), place)
+    cells = []
+    for cell, number in enumerate(world.object_of.tolist()):
+        if number >= 0:
+            answers = [run.agent.predict(sight.percept) for sight in sights[number]]
+            actions = {answer.action for answer in answers}
+            cells.append({
+                "x": cell % maze.width,
+                "y": cell // maze.width,
+                "object": number,
+                "classes": sorted({answer.class_id for answer in answers}),
+                "action": ACTIONS[actions.pop()] if len(actions) == 1 else None,
+            })  # fmt: skip
+    nowhere = dict.fromkeys(("object", "angle", "x", "y"))
+    tests = [
+        {
+            "name": split.name,
+            "class": split.class_id,
+            "step": split.step,
+            "radius": float(split.feature["radius"]),
+            **places.get(split.feature["vector"].tobytes(), nowhere),
+        }
+        for split in run.agent.splits
+    ]
+    listed = [
+        {"name": name, "angle": objects.angles[0], "points": views[0].points.tolist()}
+        for name, views in zip(objects.names, sights, strict=True)
+    ]
+    where = {"images": objects.folder or None, "poses": objects.angles}
+    return {
+        **({} if objects.folder is None else {"options": where}),
+        "maze": maze.rows,
+        "cells": len(cells),
+        "cell": cells,
+        "objects": listed,
+        "tests": tests,
+    }
+
+
 def make(run: Run, env: Any = None) -> dict[str, Any]:
     """Make the report of a run.
 
@@ -59,7 +115,7 @@ def make(run: Run, env: Any = None) -> dict[str, Any]:
     ----------
     run : Run
     env : gymnasium.Env or None
-        What was learnt; a Binary Gridworld is drawn with its classes and policy.
+        What was learnt; a maze is drawn with its classes and policy.
 
     Returns
     -------
@@ -86,7 +142,7 @@ def make(run: Run, env: Any = None) -> dict[str, Any]:
         "depth": statistics.depth,
         "last_split_step": statistics.last_split,
         "memory_bytes": run.agent.memory_bytes,
-        **_cells(run, env),
+        **({} if env is None else {**_cells(run, env), **_seen(run, env)}),
         "names": run.encoder.names if run.encoder else [],
         "history": history,
         "tree": run.agent.tree,

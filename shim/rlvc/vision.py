@@ -627,6 +627,24 @@ class Eye:
             self._known[key] = known
         return known
 
+    def look(self, picture: Picture) -> Sight:
+        """Give the percept of a picture, and where its vectors were found.
+
+        Parameters
+        ----------
+        picture : ndarray of uint8, [height, width] or [height, width, 3]
+
+        Returns
+        -------
+        Sight
+
+        Raises
+        ------
+        PictureError
+            The picture is of the wrong dtype, shape or size.
+        """
+        return self.extractor.look(picture, self._order)
+
     def explain(self, text: str) -> str:
         """Leave a tree's text as it is: a feature's name says all there is in words.
 

@@ -6,20 +6,22 @@ import subprocess
 import sys
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, without_vision
 
 EXAMPLES = sorted((ROOT / "examples").glob("[0-9][0-9]_*.py"))
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example(example, tmp_path):
+    if "tiled" in example.stem and without_vision():
+        pytest.skip(without_vision())
     done = subprocess.run(
         [sys.executable, str(example)], cwd=tmp_path, capture_output=True, text=True, timeout=300
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout
-    if "figures" in example.stem:
-        drawn = {path.name for path in tmp_path.iterdir()}
+    drawn = {path.name for path in tmp_path.iterdir()}
+    if "maze_figures" in example.stem:
         assert {
             "maze.png",
             "maze.svg",
@@ -28,6 +30,9 @@ def test_example(example, tmp_path):
             "curve.png",
             "splits.png",
         } <= drawn
+    if "tiled_figures" in example.stem:
+        assert {"tiles.png", "tiles.svg", "features.png", "features.svg"} == drawn
+        assert float(done.stdout.split()[2]) >= 95
     if "lake" in example.stem:
         assert float(done.stdout.split("mean return:")[1]) >= 0.7
     if "log" in example.stem:

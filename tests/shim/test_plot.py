@@ -13,6 +13,9 @@ import rlvc
 import rlvc.envs
 from rlvc import __main__ as command
 from rlvc import errors, plot, report
+from rlvc.plot import mazes
+
+OF_BITS = ["maze", "values", "curve", "splits", "tree"]  # test_tiled.py has the others
 
 
 @pytest.fixture(scope="module")
@@ -30,8 +33,12 @@ def made(run, env):
     return json.loads(json.dumps(report.make(run, env)))
 
 
+def test_the_command_knows_every_picture():
+    assert tuple(plot.KINDS) == command._PICTURES
+
+
 @pytest.mark.parametrize("suffix", ["png", "svg"])
-@pytest.mark.parametrize("kind", plot.KINDS)
+@pytest.mark.parametrize("kind", OF_BITS)
 def test_every_picture(made, kind, suffix, tmp_path):
     file = tmp_path / f"picture.{suffix}"
     plot.KINDS[kind](made, file)
@@ -52,6 +59,9 @@ def test_from_an_agent_and_a_run(run, kind, tmp_path):
         plot.KINDS[kind](source, tmp_path / "picture.svg")
     with pytest.raises(errors.RunError, match="no maze"):
         plot.maze(run)
+    for draw in (plot.tiles, plot.features):
+        with pytest.raises(errors.RunError, match="cannot be drawn"):
+            draw(run)
     with pytest.raises(errors.RunError, match="no history"):
         plot.learning_curve(run.agent)
 
@@ -79,7 +89,7 @@ def test_nothing_is_cut(made):
 
 def test_pale_colours_carry_black_type():
     for fraction in np.linspace(0, 1, 11):
-        red, green, blue = plot._pale(fraction)
+        red, green, blue = mazes._pale(fraction)
         assert 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > 0.3
 
 
@@ -105,7 +115,7 @@ def test_damaged_reports(tmp_path, content, said):
 
 
 def test_other_file_types(made, tmp_path):
-    for kind in plot.KINDS:
+    for kind in OF_BITS:
         with pytest.raises(errors.RunError, match=r"\.png or a \.svg"):
             plot.KINDS[kind](made, tmp_path / "picture.jpg")
 
@@ -126,7 +136,7 @@ def test_the_command_learns_and_draws(tmp_path, capsys):
     out = capsys.readouterr().out
     assert "mean return of 5 episodes" in out
     assert "policy_act" in header.read_text(encoding="utf-8")
-    for kind in plot.KINDS:
+    for kind in OF_BITS:
         assert command.main(["plot", str(file), kind, str(tmp_path / f"{kind}.svg")]) == 0
 
 

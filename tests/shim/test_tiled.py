@@ -13,10 +13,11 @@ import pytest
 from conftest import without_vision
 from gymnasium import spaces
 from gymnasium.utils.env_checker import check_env
+from matplotlib.patches import Circle
 
 import rlvc
 import rlvc.envs
-from rlvc import errors, objects
+from rlvc import errors, objects, plot, report
 
 U8 = np.uint8
 TOOL = os.environ.get("RLVC_RUN_GRIDWORLD")
@@ -60,25 +61,31 @@ def test_wrong_pictures(pictures):
         rlvc.envs.TiledGridworld(rlvc.envs.SMALL, pictures)
 
 
-@sees
-def test_it_is_learnt_from_pictures():
+@pytest.fixture(scope="module")
+def learnt():
+    """A small maze, whose objects are seen from two angles, and a run in it."""
     from rlvc import vision
 
     env = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, angles=(0, 10))
-    check_env(env, skip_render_check=True)
     pictures = env.objects.pictures
     metric = vision.Metric.fit(
         pictures.reshape(-1, *pictures.shape[2:]), np.repeat(np.arange(10), 2),
         sigma=4.0, form="int8", normalise=True, share=0.035,
     )  # fmt: skip
     eye = vision.Eye(vision.Extractor(metric=metric))
-    run = rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+    return env, eye, rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+
+
+@sees
+def test_it_is_learnt_from_pictures(learnt):
+    env, eye, run = learnt
+    check_env(env, skip_render_check=True)
     again = rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
     assert run.text() == again.text()
     assert isinstance(run.agent.domain, rlvc.Descriptors)
     best = [[(1, 2), 1, (1, 2), 2], [2, None, (1, 2), 2], [1, 1, 1, None]]
     for cell, number in enumerate(env.object_of):
-        for picture in pictures[number] if number >= 0 else ():
+        for picture in env.objects.pictures[number] if number >= 0 else ():
             wanted = best[cell // 4][cell % 4]
             assert run.act(picture) in (wanted if isinstance(wanted, tuple) else (wanted,)), cell
     with pytest.raises(errors.PictureError):
@@ -99,6 +106,63 @@ def test_a_log_of_pictures():
     }  # fmt: skip
     run = rlvc.learn_from(log, encoder=eye)
     assert [run.act(picture) for picture in pictures] == [0, 1, 0, 1]
+
+
+@sees
+@pytest.mark.parametrize("suffix", ["png", "svg"])
+@pytest.mark.parametrize("kind", ["tiles", "features", "maze", "values", "splits"])
+def test_every_picture(learnt, kind, suffix, tmp_path):
+    env, _, run = learnt
+    made = json.loads(json.dumps(report.make(run, env)))
+    plot.KINDS[kind](made, tmp_path / f"picture.{suffix}")
+    content = (tmp_path / f"picture.{suffix}").read_bytes()
+    assert content.startswith(b"\x89PNG" if suffix == "png" else b"<?xml")
+    assert len(content) > 10_000
+
+
+def shown(figure):
+    """How many pictures and circles there are, and what is written; all of it lies within the figure."""
+    figure.canvas.draw()
+    width, height = figure.get_size_inches()
+    box = figure.get_tightbbox()
+    assert box.x0 > -0.1 and box.y0 > -0.1
+    assert box.x1 < width + 0.1 and box.y1 < height + 0.1
+    pictures = sum(len(axes.images) for axes in figure.axes)
+    circles = sum(isinstance(patch, Circle) for axes in figure.axes for patch in axes.patches)
+    return pictures, circles, {text.get_text() for axes in figure.axes for text in axes.texts}
+
+
+@sees
+def test_what_is_shown(learnt):
+    env, eye, run = learnt
+    made = report.make(run, env)
+    pictures, circles, said = shown(plot.tiles(made))
+    assert pictures == 10
+    assert circles == 2 * sum(len(eye.look(views[0]).points) for views in env.objects.pictures)
+    classes = run.agent.classes
+    assert {str(c) for c in range(classes)} <= said
+    pictures, circles, said = shown(plot.features(made))
+    assert circles == 2 * (classes - 1)
+    assert pictures >= classes - 1 + 10
+    assert {f"class {c}" for c in range(classes)} == {t.split("\n")[0] for t in said if "\n" in t}
+    for test, split in zip(made["tests"], run.agent.splits, strict=True):
+        sight = eye.look(env.objects.view(test["object"], test["angle"]))
+        at = sight.points[:, :2].tolist().index([test["x"], test["y"]])
+        assert (sight.vectors[at] == split.feature["vector"]).all()
+
+
+@sees
+def test_pictures_that_were_given(learnt):
+    env, eye, _ = learnt
+    other = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, env.objects.pictures)
+    run = rlvc.learn(other, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+    made = report.make(run, other)
+    for draw in (plot.tiles, plot.features):
+        with pytest.raises(errors.RunError, match="no options"):
+            draw(made)
+        with pytest.raises(errors.RunError, match=r"\.png or a \.svg"):
+            draw(made, "picture.jpg", other.objects)
+    shown(plot.features(made, objects=other.objects))
 
 
 @sees
@@ -132,3 +196,5 @@ def test_parity_with_the_tool(tmp_path):
             feature["vector"] = vector
             names.add(domain.name(feature[0]))
     assert {test["name"] for test in made["runs"][0]["tests"]} <= names
+    assert shown(plot.tiles(made))[0] == 10
+    assert shown(plot.features(made))[1] == 2 * len(made["runs"][0]["tests"])

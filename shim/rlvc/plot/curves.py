@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""What happened meanwhile: learning curves, and when which feature was found."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from ..errors import RunError
+from .drawing import BLUE, GREY, ORANGE, Source, explained, need, reports, save
+
+
+def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
+    """Draw classes, and optimal cells or the mean return, over interactions.
+
+    Parameters
+    ----------
+    source : dict, path or Run
+        With ``history``; all runs of a report are drawn.
+    file : str, Path or None
+        A PNG or an SVG.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    RunError
+        The source has no history, or the file is neither PNG nor SVG.
+    """
+    runs = [need(run, "history") for run in reports(source)]
+    if not runs[0]["history"]:
+        raise RunError("cannot be drawn: no learning step in it")
+    optimal = "optimal_cells" in runs[0]["history"][0]
+    second = "optimal_cells" if optimal else "mean_return"
+    figure = Figure(figsize=(7, 5), layout="constrained")
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for run in runs:
+        points = [record["interactions"] for record in run["history"]]
+        thin = 2.0 if len(runs) == 1 else 0.9
+        upper.plot(
+            points, [record["classes"] for record in run["history"]], color=BLUE, linewidth=thin
+        )
+        known = [record for record in run["history"] if record[second] is not None]
+        lower.plot(
+            [record["interactions"] for record in known],
+            [record[second] for record in known],
+            color=ORANGE,
+            linewidth=thin,
+            marker="o" if len(runs) == 1 else None,
+            markersize=3.5,
+        )
+    upper.set_ylabel("classes")
+    lower.set_ylabel("optimal cells" if optimal else "mean return of an episode")
+    lower.set_xlabel("interactions")
+    if optimal and "cells" in runs[0]:
+        lower.axhline(runs[0]["cells"], color=GREY, linewidth=0.9, linestyle=":")
+        lower.annotate(
+            f"all {runs[0]['cells']} cells",
+            (1, runs[0]["cells"]),
+            xycoords=("axes fraction", "data"),
+            xytext=(0, 3),
+            textcoords="offset points",
+            ha="right",
+            va="bottom",
+            fontsize=9,
+            color=GREY,
+        )
+        lower.set_ylim(top=1.15 * runs[0]["cells"])
+    for axes in (upper, lower):
+        axes.grid(color="#e0e0e0", linewidth=0.6)
+        axes.set_axisbelow(True)
+        axes.spines[["top", "right"]].set_visible(False)
+    title = "Learning" if len(runs) == 1 else f"Learning: {len(runs)} runs"
+    upper.set_title(title, fontsize=12, loc="left")
+    return save(figure, file)
+
+
+def splits(source: Source, file: str | Path | None = None) -> Figure:
+    """Draw which feature was found at which step: a disc a split, the larger the surer.
+
+    Parameters
+    ----------
+    source : dict, path, Run or Agent
+        With ``tree``.
+    file : str, Path or None
+        A PNG or an SVG.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    RunError
+        The source has no tree, or the file is neither PNG nor SVG.
+    """
+    report = need(reports(source)[0], "tree")
+    found = [node for node in report["tree"]["nodes"] if "test" in node]
+    if not found:
+        raise RunError("cannot be drawn: the tree has a single class")
+    found.sort(key=lambda node: node["split"])
+    tests: dict[str, int] = {}
+    for node in found:
+        tests.setdefault(explained(node["test"], report), len(tests))
+    height = min(20.0, max(2.5, 0.3 * len(tests) + 1.2))
+    figure = Figure(figsize=(7.5, height), layout="constrained")
+    axes = figure.subplots()
+    at: dict[tuple[int, int], int] = {}
+    xs, ys, sizes = [], [], []
+    for node in found:
+        place = (node["step"], tests[explained(node["test"], report)])
+        at[place] = at.get(place, 0) + 1
+        xs.append(place[0] + 0.14 * (at[place] - 1))
+        ys.append(place[1])
+        sizes.append(18 + 12 * math.log1p(-node["log_p"]))
+    axes.scatter(xs, ys, s=sizes, color=BLUE, alpha=0.75, edgecolors="white", linewidths=0.5)
+    axes.set_yticks(range(len(tests)), list(tests), fontsize=9)
+    axes.set_ylim(len(tests) - 0.4, -0.6)
+    axes.set_xlabel("learning step k (several splits of a step stand side by side)")
+    axes.set_title(f"{len(found)} splits, by feature", fontsize=12, loc="left")
+    axes.grid(axis="y", color="#e0e0e0", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    return save(figure, file)
