@@ -4,8 +4,10 @@
 
 #include "rlvc/vision.h"
 
-#define SIZE(type) {#type, sizeof(type)}
-#define FIELD(type, field) {#type "." #field, offsetof(type, field)}
+#define SIZE(type)                                                                                 \
+    { #type, sizeof(type) }
+#define FIELD(type, field)                                                                         \
+    { #type "." #field, offsetof(type, field) }
 
 static const rlvc_shim_entry layout[] = {
     SIZE(rlvc_config),
@@ -107,6 +109,18 @@ static const rlvc_shim_entry layout[] = {
     FIELD(rlvc_shim_log, bytes),
     FIELD(rlvc_shim_log, actions),
     FIELD(rlvc_shim_log, resume),
+    SIZE(rlvc_shim_records),
+    FIELD(rlvc_shim_records, percepts),
+    FIELD(rlvc_shim_records, next),
+    FIELD(rlvc_shim_records, choices),
+    FIELD(rlvc_shim_records, rewards),
+    FIELD(rlvc_shim_records, ends),
+    FIELD(rlvc_shim_records, interactions),
+    FIELD(rlvc_shim_records, fault_at),
+    FIELD(rlvc_shim_records, percept_bytes),
+    FIELD(rlvc_shim_records, actions),
+    FIELD(rlvc_shim_records, torn),
+    FIELD(rlvc_shim_records, reserved),
     SIZE(rlvc_vision_config),
     FIELD(rlvc_vision_config, descriptor),
     FIELD(rlvc_vision_config, points),

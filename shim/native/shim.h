@@ -38,7 +38,8 @@ typedef struct rlvc_shim_log {
     size_t count;
     uint32_t bytes;
     uint32_t actions;
-    uint32_t resume; /* 1: the first goes on from the agent's current percept; 0: it begins an episode */
+    uint32_t
+        resume; /* 1: the first goes on from the agent's current percept; 0: it begins an episode */
 } rlvc_shim_log;
 
 /* rlvc_begin and rlvc_act for each percept, that of each environment of a vector: fills log->choices.
@@ -49,6 +50,32 @@ RLVC_API rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, 
  * that it led to, they are of one episode; else the next one begins an episode. All are looked at
  * before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done. */
 RLVC_API rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
+
+/* A log of interactions as rlvc/log.h has it, as arrays of `interactions` elements. */
+typedef struct rlvc_shim_records {
+    unsigned char *percepts, *next; /* `percept_bytes` each; next is 0 where terminated */
+    rlvc_choice *choices;
+    float *rewards;
+    uint8_t *ends; /* an interaction that the writer left off after is truncated */
+    size_t interactions;
+    size_t fault_at; /* the byte from which on something is wrong */
+    uint32_t percept_bytes, actions;
+    uint32_t torn; /* writers, or the end of the log, that left off in the middle of a record */
+    uint32_t reserved;
+} rlvc_shim_records;
+
+#define RLVC_SHIM_RECORDS_PERCEPT (1u << 20) /* bytes of the largest percept */
+#define RLVC_SHIM_RECORDS_ROOM (RLVC_SHIM_RECORDS_PERCEPT + 13u)
+
+/* Reads a log of `count` bytes: everything but the arrays of *records, and these too, unless choices and
+ * ends are null. A record cut short is passed over if nothing or a header comes after it.
+ * @param buffer  [RLVC_SHIM_RECORDS_ROOM]
+ * @param current [RLVC_SHIM_RECORDS_PERCEPT]
+ * @return RLVC_OK; RLVC_E_DAMAGED: bytes or records are missing in between; RLVC_E_VERSION,
+ *         RLVC_E_MISMATCH: a header is of another version, or of other percepts than the first */
+RLVC_API rlvc_status rlvc_shim_records_read(const unsigned char *bytes, size_t count,
+                                            unsigned char *buffer, unsigned char *current,
+                                            rlvc_shim_records *records);
 
 /* The last solution, as tables.
  * @param q, samples    [classes][actions]
@@ -68,8 +95,8 @@ RLVC_API int rlvc_shim_maze_parse(gridworld_maze *maze, const char *text, size_t
 RLVC_API uint32_t rlvc_shim_maze_bits(const gridworld_maze *maze, uint32_t distractors);
 RLVC_API void rlvc_shim_maze_encode(const gridworld_maze *maze, uint32_t distractors, uint32_t cell,
                                     gridworld_random *random, unsigned char *percept);
-RLVC_API int rlvc_shim_world_init(gridworld *world, const gridworld_maze *maze, uint32_t distractors,
-                                  float slip, uint32_t seed);
+RLVC_API int rlvc_shim_world_init(gridworld *world, const gridworld_maze *maze,
+                                  uint32_t distractors, float slip, uint32_t seed);
 RLVC_API void rlvc_shim_world_reset(gridworld *world);
 RLVC_API void rlvc_shim_world_percept(gridworld *world, unsigned char *percept);
 RLVC_API int rlvc_shim_world_step(gridworld *world, uint32_t action, float *reward);

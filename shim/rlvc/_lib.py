@@ -207,6 +207,24 @@ class Log(c.Structure):
     ]
 
 
+class Records(c.Structure):
+    """``rlvc_shim_records``."""
+
+    _fields_ = [
+        ("percepts", c.c_void_p),
+        ("next", c.c_void_p),
+        ("choices", c.c_void_p),
+        ("rewards", c.c_void_p),
+        ("ends", c.c_void_p),
+        ("interactions", c.c_size_t),
+        ("fault_at", c.c_size_t),
+        ("percept_bytes", c.c_uint32),
+        ("actions", c.c_uint32),
+        ("torn", c.c_uint32),
+        ("reserved", c.c_uint32),
+    ]
+
+
 class VisionConfig(c.Structure):
     """``rlvc_vision_config``."""
 
@@ -303,6 +321,7 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
+    "rlvc_shim_records": Records,
     "rlvc_vision_config": VisionConfig,
     "rlvc_vision_error": VisionError,
     "rlvc_point": Point,
@@ -355,7 +374,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_descriptors_domain": (c.c_int, [_P, _P]),
     "rlvc_descriptors_radius": (c.c_float, [_P]),
     "rlvc_descriptors_nearest": (c.c_int, [_P, _P, _P, _P, _P]),
-    # log.h: not used here
+    # log.h, of which only the reader is used, through native/records.c
     "rlvc_log_open": (c.c_int, [_P, _U32, _U32, _P, _P]),
     "rlvc_log_begin": (c.c_int, [_P, _P]),
     "rlvc_log_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),
@@ -366,6 +385,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_shim_predict": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P, _P]),
     "rlvc_shim_act": (c.c_int, [_P, _P, _P]),
     "rlvc_shim_observe": (c.c_int, [_P, _P, _P]),
+    "rlvc_shim_records_read": (c.c_int, [_P, c.c_size_t, _P, _P, _P]),
     "rlvc_shim_tables": (c.c_int, [_P, _U32, _U32, _P, _P, _P, _P]),
     "rlvc_shim_empty_act": (c.c_int, [_P, _P]),
     "rlvc_shim_empty_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),
@@ -426,6 +446,8 @@ DETECT_SAMPLES = DETECT_FEATURES = 64
 NAME_BYTES = 64
 BITS_MAX = 1024
 ALIGNMENT = 8
+RECORDS_PERCEPT = 1 << 20
+RECORDS_ROOM = RECORDS_PERCEPT + 13
 
 # ------------------------------------------------------------------ loading
 

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _lib
 from .batch import Batch, native_log
 from .config import Config
-from .domain import Bits, Domain, Percept
+from .domain import Domain, Percept
 from .errors import RangeError, ReenteredError, RewardError, SnapshotError
 from .looking import Looking
 from .results import CHOICE, Choice, Progress
@@ -380,7 +380,7 @@ class Agent(Looking):
         ----------
         file : str or Path
         domain : Domain or None
-            As it was; None if it was :class:`Bits`.
+            As it was; None if it was :class:`Bits` or :class:`Descriptors`.
 
         Returns
         -------
@@ -393,11 +393,10 @@ class Agent(Looking):
         SnapshotError
             It is no such file, is damaged, or needs a domain.
         """
-        bits, config, _, snapshot = read_file(file)
+        kept, config, _, snapshot = read_file(file)
+        domain = kept if domain is None else domain
         if domain is None:
-            if bits is None:
-                raise SnapshotError(f"{file}: its agent has a domain of its own: give it")
-            domain = Bits(bits)
+            raise SnapshotError(f"{file}: its agent has a domain of its own: give it")
         try:
             return cls.restore(domain, config, snapshot)
         except SnapshotError as error:

@@ -330,7 +330,7 @@ class Descriptors(Domain):
         draws: int = 8,
         margin: float = 1.8,
     ) -> None:
-        self._parameters = (points, dimensions, radius, form, candidates, draws, margin)
+        self.parameters = (points, dimensions, radius, form, candidates, draws, margin)
         if form not in ("float", "int8"):
             raise ConfigError(f"form: {form!r} is none of float, int8")
         self._made = _lib.Descriptors(
@@ -353,7 +353,7 @@ class Descriptors(Domain):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the parameters."""
-        return type(self), self._parameters
+        return type(self), self.parameters
 
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
         """Whether a percept's record has a vector near enough to the feature's."""
@@ -407,6 +407,13 @@ class Descriptors(Domain):
         if int.from_bytes(record[:4], sys.byteorder) > self.points:
             raise PerceptError(f"a percept of more than {self.points} vectors")
         return record
+
+    def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Like :meth:`Domain.pack_many`, of records; their counts are looked at."""
+        packed = super().pack_many(percepts)
+        if (packed[:, :4].copy().view(np.uint32) > self.points).any():
+            raise PerceptError(f"a percept of more than {self.points} vectors")
+        return packed
 
     def is_one(self, percept: Any) -> bool:
         """Whether this is one percept: vectors or a record, and not an array of records."""

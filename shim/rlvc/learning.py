@@ -277,7 +277,17 @@ def _packed(encoder: Any, observations: list[Any], size: int) -> npt.NDArray[np.
     return np.frombuffer(joined, np.uint8).reshape(len(observations), size)
 
 
-def _ends(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
+def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
+    """Give how interactions ended, as :meth:`rlvc.Agent.observe_many` takes it.
+
+    Parameters
+    ----------
+    terminated, truncated : array of bool, [n]
+
+    Returns
+    -------
+    ndarray of uint8, [n]
+    """
     return np.where(terminated, _lib.TERMINATED, np.where(truncated, _lib.TRUNCATED, 0)).astype(
         np.uint8
     )
@@ -291,7 +301,7 @@ def _store(run: Run, transition: tuple[Any, ...], choices: npt.NDArray[Any], res
         choices,
         np.asarray(rewards, np.float32),
         _packed(run.encoder, reached, size),
-        _ends(terminated, truncated),
+        ends_of(terminated, truncated),
         resume,
     )
 

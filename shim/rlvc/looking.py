@@ -231,11 +231,14 @@ class Looking(Handle):
         RangeError
             ``name`` is no such identifier.
         ConfigError
-            The domain is not :class:`Bits`.
+            The domain is neither :class:`Bits` nor :class:`Descriptors`.
 
         Notes
         -----
-        Source: ``core/include/rlvc/export.h``.
+        A percept of descriptors is the record that ``pack`` makes, aligned to 4: what
+        ``rlvc_extractor_extract`` fills on the controller. Compile such a header with
+        ``-ffp-contract=off``, and the action is the agent's for every percept, bit for bit. Source:
+        ``core/include/rlvc/export.h``.
         """
         encoded = name.encode()
         parts: list[bytes] = []

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Snapshots in memory and in files.
 
-An agent's file is a line ``rlvc agent 1``, a line of JSON (``bits``, ``names``, ``config``, ``bytes``),
-and the library's snapshot as it is.
+An agent's file is a line ``rlvc agent 1``, a line of JSON (``bits``, ``descriptors``, ``names``,
+``config``, ``bytes``), and the library's snapshot as it is. ``bits`` or ``descriptors`` has the parameters
+of that domain; both are null for one's own.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _lib
 from .config import Config
-from .domain import Bits
+from .domain import Bits, Descriptors, Domain
 from .errors import SnapshotError, StoreError
 
 if TYPE_CHECKING:
@@ -90,6 +91,7 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
     domain = agent.domain
     head = {
         "bits": domain.bits if isinstance(domain, Bits) else None,
+        "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
         "names": list(names),
         "config": dataclasses.asdict(agent.config),
         "bytes": len(snapshot),
@@ -106,7 +108,7 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
         raise StoreError(f"{file}: cannot be written: {error.strerror}") from error
 
 
-def read_file(file: str | Path) -> tuple[int | None, Config, list[str], bytes]:
+def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes]:
     """Read an agent's file.
 
     Parameters
@@ -116,7 +118,7 @@ def read_file(file: str | Path) -> tuple[int | None, Config, list[str], bytes]:
     Returns
     -------
     tuple
-        How many bits (None: a domain of one's own), the config, what each bit says, the snapshot.
+        The domain (None: one's own), the config, what each bit says, the snapshot.
 
     Raises
     ------
@@ -135,11 +137,14 @@ def read_file(file: str | Path) -> tuple[int | None, Config, list[str], bytes]:
     try:
         head: dict[str, Any] = json.loads(line)
         config = Config(**head["config"])
-        bits, names, count = head["bits"], [str(name) for name in head["names"]], head["bytes"]
-        if not (bits is None or 1 <= bits <= _lib.BITS_MAX):
-            raise ValueError("bits")
-    except (ValueError, KeyError, TypeError) as error:
+        names, count = [str(name) for name in head["names"]], head["bytes"]
+        domain: Domain | None = None
+        if head["bits"] is not None:
+            domain = Bits(head["bits"])
+        elif head.get("descriptors") is not None:
+            domain = Descriptors(*head["descriptors"])
+    except (ValueError, KeyError, TypeError, ctypes.ArgumentError) as error:
         raise SnapshotError(f"{file}: is damaged: its head cannot be read ({error})") from error
     if len(snapshot) != count:
         raise SnapshotError(f"{file}: is damaged: {len(snapshot)} bytes of {count} are there")
-    return bits, config, names, snapshot
+    return domain, config, names, snapshot

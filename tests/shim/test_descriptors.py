@@ -3,11 +3,13 @@
 
 import gc
 import pickle
+import subprocess
 
 import numpy as np
 import pytest
 
 import rlvc
+from rlvc import __main__ as command
 from rlvc import errors
 
 
@@ -52,6 +54,50 @@ def test_the_feature_is_found(domain):
     assert [agent.predict(p).class_id for p in pictures] == classes
     assert [domain.exhibits(p, split.feature) for p in pictures] == [c == 1 for c in classes]
     assert pickle.loads(pickle.dumps(agent)).print() == agent.print()
+
+
+def test_the_export_acts_like_the_agent(domain, tmp_path):
+    agent = taught(domain)
+    (tmp_path / "seen.h").write_text(agent.export_c("seen"), encoding="utf-8")
+    program = """
+        #include "seen.h"
+        #include <stdio.h>
+        int main(void) {
+            static uint32_t percept[WORDS];
+            while (fread(percept, sizeof percept, 1, stdin) == 1)
+                putchar((int)seen_act(percept) + '0');
+            return 0;
+        }"""
+    subprocess.run(
+        ["gcc", "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", f"-I{tmp_path}",
+         f"-DWORDS={domain.percept_bytes // 4}", "-o", tmp_path / "seen", "-x", "c", "-"],
+        input=program, text=True, check=True,
+    )  # fmt: skip
+    records = [domain.pack(p) for p in [*scenes(domain, 300, seed=3), scenes(domain, 1)[0][:0]]]
+    done = subprocess.run(
+        [tmp_path / "seen"], input=b"".join(records), capture_output=True, check=True
+    )
+    assert [int(c) for c in done.stdout.decode()] == [agent.predict(r).action for r in records]
+
+
+def test_a_saved_agent_knows_its_domain(domain, tmp_path, capsys):
+    agent = taught(domain)
+    file = tmp_path / "agent.rlvc"
+    agent.save(file)
+    again = rlvc.Agent.load(file)
+    assert again.snapshot() == agent.snapshot()
+    assert again.domain.parameters == domain.parameters
+    assert command.main(["export", str(file), "--c", str(tmp_path / "seen.h")]) == 0
+    assert "policy_act(const void *percept)" in (tmp_path / "seen.h").read_text(encoding="utf-8")
+    assert command.main(["show", str(file)]) == 0
+    assert "2 classes" in capsys.readouterr().out
+    content = file.read_bytes()
+    for wrong in (b'"int4"', b"4.0, {}", b"[]"):
+        at = content.index(b'"descriptors": ') + 15
+        end = content.index(b"]", at) + 1
+        file.write_bytes(content[:at] + b"[5, 3, " + wrong + b"]" + content[end:])
+        with pytest.raises(errors.SnapshotError, match="damaged"):
+            rlvc.Agent.load(file)
 
 
 def test_candidates_are_vectors_of_the_percepts(domain):

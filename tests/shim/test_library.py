@@ -80,6 +80,9 @@ def test_constants():
         match = re.search(rf"\bRLVC_{name} (?:= )?(-?\d+)", text)
         assert match, name
         assert int(match[1]) == getattr(_lib, name), name
+    assert "#define RLVC_SHIM_RECORDS_PERCEPT (1u << 20)" in text
+    assert _lib.RECORDS_PERCEPT == 1 << 20
+    assert _lib.RECORDS_ROOM == _lib.RECORDS_PERCEPT + 13
     for field, names in config.CHOICES.items():
         for value, name in enumerate(names):
             assert re.search(rf"#define RLVC_{field}_{name} {value}u".upper().replace("DEFINE", "define")

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Learning from logs, and what is said about damaged ones."""
 
+import ctypes
+
 import numpy as np
 import pytest
 
 import rlvc
-from rlvc import errors, logs
+from rlvc import _lib, errors, logs
 
 
 def episodes(count=60, seed=1):
@@ -241,3 +243,139 @@ def test_minari(tmp_path, monkeypatch):
     )
     with pytest.raises(errors.LogError, match="test/none-v0"):
         rlvc.learn_from("test/none-v0")
+
+
+class Controller:
+    """Writes a log by the library's writer, as a controller does; notes where each record ends."""
+
+    def __init__(self, percept_bytes=1, actions=2):
+        self.text, self.ends = bytearray(), []
+        self.sink = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_uint32)(
+            lambda _, data, count: self.text.extend(ctypes.string_at(data, count)) or 0
+        )  # fmt: skip
+        self.writer = ctypes.create_string_buffer(64)
+        self.sizes = (percept_bytes, actions)
+        self.open()
+
+    def call(self, name, *arguments):
+        assert getattr(_lib.call, name)(self.writer, *arguments) == 0
+        self.ends.append(len(self.text))
+
+    def open(self):
+        self.call("rlvc_log_open", *self.sizes, self.sink, None)
+
+    def begin(self, percept):
+        self.call("rlvc_log_begin", bytes(percept))
+
+    def observe(self, action, reward, percept, end, exploited=0):
+        choice = _lib.Choice(action, exploited)
+        self.call("rlvc_log_observe", choice, reward, bytes(percept) if percept else None, end)
+
+    def walk(self, count=60, seed=1):
+        for cells, actions in episodes(count, seed):
+            self.begin([cells[0]])
+            for i, action in enumerate(actions):
+                last = i + 1 == len(actions)
+                self.observe(
+                    action, float(last), [cells[i + 1]] if not last else None, int(last), i % 2
+                )
+        return self
+
+
+def kept(tmp_path, text):
+    file = tmp_path / "walk.bin"
+    file.write_bytes(bytes(text))
+    return file
+
+
+def test_a_controllers_log(tmp_path):
+    file = kept(tmp_path, Controller().walk().text)
+    log = logs.read(str(file))
+    before = np.concatenate([cells[:-1] for cells, _ in episodes()])
+    assert log.before[:, 0].tolist() == before.tolist()
+    assert log.actions.tolist() == arrays()["actions"].tolist()
+    assert log.rewards.tolist() == arrays()["rewards"].tolist()
+    assert (log.ends == 1).tolist() == arrays()["terminated"].tolist()
+    assert log.exploited.any() and not log.exploited.all()
+    run = rlvc.learn_from(file, domain=3, discount=0.9)
+    assert optimal(run, lambda cell: bytes([cell]))
+    assert rlvc.learn_from(file, discount=0.9).agent.domain.bits == 8
+    bits = (arrays()["observations"][:, None] >> np.arange(3) & 1).astype(bool)
+    other = rlvc.learn_from(arrays(observations=bits), discount=0.9)
+    assert other.agent.print("json") == run.agent.print("json")
+
+
+def test_a_controllers_log_of_another_domain(tmp_path):
+    writer = Controller(200, 3)
+    for i in range(40):
+        writer.begin(
+            np.array([1], np.uint32).tobytes() + np.float32([i % 2]).tobytes() + bytes(192)
+        )
+        writer.observe(i // 2 % 2, float(i % 2 == i // 2 % 2), None, 1)
+    file = kept(tmp_path, writer.text)
+    with pytest.raises(errors.ConfigError, match="too many to be bits"):
+        rlvc.learn_from(file)
+    with pytest.raises(errors.ConfigError, match="200"):
+        rlvc.learn_from(file, domain=3)
+    domain = rlvc.Descriptors(points=49, dimensions=1, radius=0.5)
+    run = rlvc.learn_from(file, domain=domain)
+    assert run.agent.config.actions == 3
+    assert run.act(np.zeros((1, 1), np.float32)) == 0
+    assert run.act(np.ones((1, 1), np.float32)) == 1
+    writer.begin(b"\xff" * 200)
+    writer.observe(0, 0.0, None, 1)
+    with pytest.raises(errors.PerceptError, match="more than 49 vectors"):
+        rlvc.learn_from(kept(tmp_path, writer.text), domain=domain)
+
+
+def test_every_torn_tail(tmp_path):
+    """Wherever a log is cut, what came before is used, and what was going on is truncated."""
+    writer = Controller().walk(4)
+    whole = logs.read(kept(tmp_path, writer.text))
+    for cut in range(writer.ends[2], len(writer.text)):
+        log = logs.read(kept(tmp_path, writer.text[:cut]))
+        count = len(log)
+        assert 0 < count <= len(whole)
+        assert (log.before == whole.before[:count]).all()
+        assert log.ends[:-1].tolist() == whole.ends[: count - 1].tolist()
+        assert log.ends[-1] == (whole.ends[count - 1] or 2)
+
+
+def test_a_writer_that_was_opened_again(tmp_path):
+    """After a record cut short a header follows, and the rest is used."""
+    writer = Controller().walk(2)
+    count = len(logs.read(kept(tmp_path, writer.text)))
+    writer.begin([0])
+    writer.observe(1, 0.0, [1], 0)
+    writer.observe(1, 0.0, [2], 0)
+    del writer.text[-7:]
+    writer.open()
+    writer.walk(3, seed=2)
+    log = logs.read(kept(tmp_path, writer.text))
+    assert log.ends[count] == 2
+    assert len(log) == count + 1 + sum(len(a) for _, a in episodes(3, 2))
+
+
+def test_damaged_logs_of_controllers(tmp_path):
+    writer = Controller().walk(3)
+    text, ends = writer.text, writer.ends
+    for at in range(ends[0], ends[-2]):
+        spoilt = bytearray(text)
+        spoilt[at] ^= 0x10
+        with pytest.raises(errors.LogError, match=r"walk\.bin: from byte \d+ on: ") as caught:
+            logs.read(kept(tmp_path, spoilt))
+        said = int(str(caught.value).split("byte ")[1].split()[0])
+        assert said == max(end for end in ends if end <= at)
+    without = text[: ends[4]] + text[ends[5] :]
+    with pytest.raises(
+        errors.LogError, match=f"from byte {ends[4]} on: bytes or records are missing"
+    ):
+        logs.read(kept(tmp_path, without))
+    mixed = text + Controller(2).walk(0).text
+    with pytest.raises(errors.LogError, match="other percepts"):
+        logs.read(kept(tmp_path, mixed))
+    for short in (text[:2], text[: ends[0]], text[: ends[1]]):
+        with pytest.raises(errors.LogError, match="no interaction"):
+            logs.read(kept(tmp_path, short))
+    with pytest.raises(errors.LogError, match="neither"):
+        logs.read(kept(tmp_path, text[1:]))

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""Logs that are arrays, in memory or in an NPZ file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import LogError
+from ..learning import ends_of
+from .log import Log, checked
+
+_FIELDS = ("observations", "actions", "rewards", "terminated")
+_OPTIONAL = ("truncated", "exploited")
+
+
+def _column(
+    arrays: dict[str, Any], name: str, count: int, where: str, kind: str
+) -> npt.NDArray[Any]:
+    values = np.asarray(arrays[name])
+    if values.ndim == 2 and values.shape[1] == 1:
+        values = values[:, 0]
+    if values.shape != (count,):
+        raise LogError(f"{where}: {name}: {list(values.shape)}, not [{count}]")
+    if values.dtype.kind not in kind:
+        raise LogError(f"{where}: {name}: {values.dtype}, which is not of the kind that is wanted")
+    return values
+
+
+def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
+    """Make a log of arrays.
+
+    Parameters
+    ----------
+    arrays : dict
+        ``observations`` [sum(T + 1), ...], ``actions`` [sum(T)], ``rewards``, ``terminated``, and if
+        they are known ``truncated`` and ``exploited``. Or ``next_observations`` beside observations
+        [sum(T), ...].
+    where : str
+        What to call it in errors.
+
+    Returns
+    -------
+    Log
+
+    Raises
+    ------
+    LogError
+        A part is missing, or of the wrong shape or kind; the text says where.
+    """
+    for name in _FIELDS:
+        if name not in arrays:
+            raise LogError(
+                f"{where}: {name}: missing (there are: {', '.join(sorted(arrays)) or 'none'})"
+            )
+    known = {*_FIELDS, *_OPTIONAL, "next_observations"}
+    unknown = sorted(set(arrays) - known)
+    if unknown:
+        raise LogError(f"{where}: {unknown[0]}: not known; a log has {', '.join(sorted(known))}")
+    count = np.size(arrays["actions"])
+    if count == 0:
+        raise LogError(f"{where}: actions: no interaction in it")
+    actions = _column(arrays, "actions", count, where, "iu").astype(np.int64)
+    rewards = _column(arrays, "rewards", count, where, "fiu").astype(np.float32)
+    terminated = _column(arrays, "terminated", count, where, "biu").astype(np.bool_)
+    truncated = np.zeros(count, np.bool_)
+    if "truncated" in arrays:
+        truncated = _column(arrays, "truncated", count, where, "biu").astype(np.bool_)
+    exploited = None
+    if "exploited" in arrays:
+        exploited = _column(arrays, "exploited", count, where, "biu").astype(np.bool_)
+    ends = ends_of(terminated, truncated)
+    observations = np.asarray(arrays["observations"])
+    if "next_observations" in arrays:
+        before, after = observations, np.asarray(arrays["next_observations"])
+        for name, values in (("observations", before), ("next_observations", after)):
+            if len(values) != count:
+                raise LogError(f"{where}: {name}: {len(values)} of them for {count} actions")
+    else:
+        before, after = _split_episodes(observations, ends, where)
+    return checked(Log(before, after, actions, rewards, ends, exploited, where))
+
+
+def _split_episodes(
+    observations: npt.NDArray[Any], ends: npt.NDArray[np.uint8], where: str
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    """S and s' of each interaction, where each episode has an observation more than actions."""
+    if ends[-1] == 0:
+        ends[-1] = 2
+    starts = np.concatenate(([0], ends[:-1] != 0))
+    index = np.arange(len(ends)) + np.cumsum(starts)
+    wanted = int(index[-1]) + 2
+    if len(observations) != wanted:
+        raise LogError(
+            f"{where}: observations: {len(observations)} of them; {len(ends)} actions in "
+            f"{int(starts.sum()) + 1} episodes need {wanted}"
+        )
+    return observations[index], observations[index + 1]
+
+
+def from_npz(path: str | Path) -> Log:
+    """Read a log from an NPZ file with the arrays that :func:`from_arrays` describes.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Log
+
+    Raises
+    ------
+    LogError
+        It cannot be read, or is damaged.
+    """
+    import zipfile
+    import zlib
+
+    try:
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error, AttributeError) as error:
+        raise LogError(f"{path}: cannot be read as NPZ: {error}") from error
+    return from_arrays(arrays, str(path))

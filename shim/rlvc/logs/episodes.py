@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""Logs that are Minari data sets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import LogError
+from ..learning import ends_of
+from .log import Log, checked
+
+
+def from_minari(dataset: Any) -> Log:
+    """Make a log of a Minari data set.
+
+    Parameters
+    ----------
+    dataset : minari.MinariDataset or str
+        A name is loaded from where Minari keeps its data sets. If the episodes' infos have an
+        ``exploited``, it is used.
+
+    Returns
+    -------
+    Log
+
+    Raises
+    ------
+    LogError
+        It cannot be read, or an episode is damaged; the text says which.
+    """
+    if isinstance(dataset, str):
+        try:
+            import minari
+        except ImportError:
+            raise ImportError("Minari data sets need Minari: pip install 'rlvc[logs]'") from None
+        try:
+            dataset = minari.load_dataset(dataset)
+        except (OSError, ValueError, KeyError) as error:
+            raise LogError(f"{dataset}: cannot be loaded: {error}") from error
+    name = str(dataset.spec.dataset_id)
+    parts: dict[str, list[Any]] = {key: [] for key in ("before", "after", "a", "r", "e", "x")}
+    for episode in dataset.iterate_episodes():
+        where = f"{name}: episode {episode.id}"
+        count = len(episode.actions)
+        seen = _observations(episode.observations)
+        if len(seen) != count + 1:
+            raise LogError(f"{where}: {len(seen)} observations for {count} actions")
+        if count == 0:
+            continue
+        ends = ends_of(episode.terminations, episode.truncations)
+        if ends[-1] == 0:
+            ends[-1] = 2
+        early = np.flatnonzero(ends[:-1])
+        if len(early):
+            raise LogError(f"{where}: index {early[0]}: ends before its last interaction")
+        parts["before"] += seen[:-1]
+        parts["after"] += seen[1:]
+        parts["a"].append(np.asarray(episode.actions))
+        parts["r"].append(np.asarray(episode.rewards, np.float32))
+        parts["e"].append(ends)
+        infos = episode.infos or {}
+        if "exploited" in infos:
+            parts["x"].append(np.asarray(infos["exploited"], np.bool_)[-count:])
+    if not parts["a"]:
+        raise LogError(f"{name}: no interaction in it")
+    actions = np.concatenate(parts["a"])
+    if actions.dtype.kind not in "iu" or actions.ndim != 1:
+        raise LogError(
+            f"{name}: actions: {actions.dtype}{list(actions.shape)}: not of a finite set"
+        )
+    rewards, ends = np.concatenate(parts["r"]), np.concatenate(parts["e"])
+    exploited = np.concatenate(parts["x"]) if parts["x"] else None
+    if exploited is not None and len(exploited) != len(actions):
+        raise LogError(
+            f"{name}: infos: exploited: {len(exploited)} of them for {len(actions)} actions"
+        )
+    start = int(getattr(dataset.spec.action_space, "start", 0))
+    actions = actions.astype(np.int64) - start
+    return checked(Log(parts["before"], parts["after"], actions, rewards, ends, exploited, name))
+
+
+def _observations(observations: Any) -> list[Any]:
+    if isinstance(observations, dict):
+        parts = {key: _observations(value) for key, value in observations.items()}
+        count = len(next(iter(parts.values())))
+        return [{key: value[i] for key, value in parts.items()} for i in range(count)]
+    if isinstance(observations, tuple):
+        return list(zip(*(_observations(value) for value in observations), strict=True))
+    return list(observations)

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Logs that a controller wrote while it acted (``core/include/rlvc/log.h``), by the library's reader."""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _lib
+from ..errors import LogError
+from ..results import CHOICE
+from .log import Log
+
+_MAGIC = b"\xa5\x01"  # the mark of a record, and that it is a header
+
+
+def is_records(path: str | Path) -> bool:
+    """Whether a file begins as such a log does.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    bool
+    """
+    try:
+        with open(path, "rb") as file:
+            return file.read(len(_MAGIC)) == _MAGIC
+    except OSError:
+        return False
+
+
+def _read(content: bytes, records: _lib.Records, path: str | Path) -> None:
+    buffer = ctypes.create_string_buffer(_lib.RECORDS_ROOM)
+    current = ctypes.create_string_buffer(_lib.RECORDS_PERCEPT)
+    status = _lib.long_call.rlvc_shim_records_read(
+        content, len(content), buffer, current, ctypes.byref(records)
+    )
+    if status != _lib.OK:
+        raise LogError(f"{path}: from byte {records.fault_at} on: {_WRONG[status]}")
+
+
+_WRONG = {
+    _lib.E_DAMAGED: "bytes or records are missing, or damaged, and others follow",
+    _lib.E_VERSION: "a header of another version",
+    _lib.E_MISMATCH: "a header of other percepts or actions than the first",
+}
+
+
+def from_records(path: str | Path) -> Log:
+    """Read a log that ``rlvc_log_open``, ``rlvc_log_begin`` and ``rlvc_log_observe`` wrote.
+
+    Parameters
+    ----------
+    path : str or Path
+        Where the power was lost in the middle of a record, that is passed over, and the rest is used:
+        the episode is truncated there.
+
+    Returns
+    -------
+    Log
+        Of percepts' records, not of observations.
+
+    Raises
+    ------
+    LogError
+        It cannot be read, or is damaged elsewhere; the text says from which byte on.
+    """
+    try:
+        content = Path(path).read_bytes()
+    except OSError as error:
+        raise LogError(f"{path}: cannot be read: {error}") from error
+    records = _lib.Records()
+    _read(content, records, path)
+    count, size = records.interactions, records.percept_bytes
+    if count == 0:
+        raise LogError(f"{path}: no interaction in it")
+    shapes: dict[str, tuple[Any, Any]] = {
+        "percepts": ((count, size), np.uint8),
+        "next": ((count, size), np.uint8),
+        "choices": ((count,), CHOICE),
+        "rewards": ((count,), np.float32),
+        "ends": ((count,), np.uint8),
+    }
+    arrays = {name: np.empty(shape, dtype) for name, (shape, dtype) in shapes.items()}
+    for name, array in arrays.items():
+        setattr(records, name, array.ctypes.data)
+    _read(content, records, path)
+    return Log(
+        arrays["percepts"],
+        arrays["next"],
+        arrays["choices"]["action"].astype(np.int64),
+        arrays["rewards"],
+        arrays["ends"],
+        arrays["choices"]["exploited"] == 1,
+        str(path),
+        record_bytes=size,
+        action_count=records.actions,
+    )
