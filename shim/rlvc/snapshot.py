@@ -2,8 +2,8 @@
 """Snapshots in memory and in files.
 
 An agent's file is a line ``rlvc agent 1``, a line of JSON (``bits``, ``descriptors``, ``names``,
-``config``, ``bytes``), and the library's snapshot as it is. ``bits`` or ``descriptors`` has the parameters
-of that domain; both are null for one's own.
+``config``, ``bytes``), and the library's snapshot as it is. ``bits`` or ``descriptors`` has the
+parameters of that domain; both are null for one's own.
 """
 
 from __future__ import annotations
