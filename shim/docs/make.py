@@ -43,7 +43,8 @@ def c_page(folder):
     parts = [
         "# C\n\nThe headers are the reference: each function says what it answers and what it costs.\n"
     ]
-    for header in sorted((ROOT / "core/include/rlvc").glob("*.h")):
+    headers = [*sorted((ROOT / "core/include/rlvc").glob("*.h")), ROOT / "vision/include/rlvc/vision.h"]
+    for header in headers:
         text = header.read_text(encoding="utf-8").rstrip()
         parts.append(f"\n## rlvc/{header.name}\n\n```c\n{text}\n```\n")
     (folder / "c.md").write_text("".join(parts), encoding="utf-8")

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _lib
 from .agent import Agent
+from .batch import Batch
 from .config import Config
 from .domain import Bits, Domain
 from .encode import Encoder, needs_samples
@@ -293,38 +294,55 @@ def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
     )
 
 
-def _store(run: Run, transition: tuple[Any, ...], choices: npt.NDArray[Any], resume: bool) -> None:
-    before, _, rewards, reached, terminated, truncated = transition
-    size = run.agent.domain.percept_bytes
+def _store(
+    run: Run, percepts: Any, transition: tuple[Any, ...], choices: npt.NDArray[Any], resume: bool
+) -> None:
+    _, _, rewards, reached, terminated, truncated = transition
     run.agent.observe_many(
-        _packed(run.encoder, before, size),
+        percepts,
         choices,
         np.asarray(rewards, np.float32),
-        _packed(run.encoder, reached, size),
+        _packed(run.encoder, reached, run.agent.domain.percept_bytes),
         ends_of(terminated, truncated),
         resume,
     )
+
+
+def _fill(run: Run, batch: Batch, transition: tuple[Any, ...]) -> int:
+    """Write what came of a vector's step into its arrays; how many interactions that is."""
+    _, _, rewards, reached, terminated, truncated = transition
+    count = len(reached)
+    batch.rewards[:count] = rewards
+    batch.next_percepts[:count] = _packed(run.encoder, reached, run.agent.domain.percept_bytes)
+    batch.ends[:count] = ends_of(terminated, truncated)
+    return count
 
 
 def _collect(run: Run, learner: _Learner, explorer: _Explorer) -> Iterator[None]:
     """Interact; yields whenever a learning step is due."""
     stream, agent = learner.stream, run.agent
     size = agent.domain.percept_bytes
+    batch = agent.batch(stream.count)
     while learner.done < learner.interactions:
         before = learner.done
         live = np.flatnonzero(~stream.dead)
         everyone = stream.split(stream.current)
         percepts = _packed(run.encoder, [everyone[i] for i in live], size)
-        acting = agent.act_many(percepts) if stream.vector else [agent.act()]
-        choices = np.asarray(acting, CHOICE)
+        if stream.vector:
+            batch.percepts[: len(live)] = percepts
+            choices = batch.act(len(live))
+        else:
+            choices = np.array([agent.act()], CHOICE)
         explorer.direct(percepts, choices)
         actions = np.zeros(stream.count, np.int64)
         actions[live] = choices["action"]
         transition = learner.transition(actions)
-        kept = choices[: learner.done - before]
-        _store(run, transition, kept, resume=not stream.vector)
-        if not stream.vector and (transition[4][0] or transition[5][0]):
-            agent.begin(run.encoder.encode(stream.current))  # type: ignore[union-attr]
+        if stream.vector:
+            batch.observe(_fill(run, batch, transition))
+        else:
+            _store(run, percepts, transition, choices, resume=True)
+            if transition[4][0] or transition[5][0]:
+                agent.begin(run.encoder.encode(stream.current))  # type: ignore[union-attr]
         if learner.due(before):
             yield
 
@@ -477,7 +495,8 @@ def learn(
     for transition in walked:
         choices = np.zeros(len(transition[1]), CHOICE)
         choices["action"] = transition[1]
-        _store(run, transition, choices, resume=False)
+        percepts = _packed(encoder, transition[0], run.agent.domain.percept_bytes)
+        _store(run, percepts, transition, choices, resume=False)
     bar = _bar(interactions, progress)
     try:
         _learn(run, learner, _Explorer(run.agent, seed, explore), bar, callback)

@@ -127,7 +127,7 @@ class _Drawing:
         self.places = _places(report["tree"]["nodes"])
         rows = 1 + max(place.row for place in self.places)
         self.side = 0.95 if rows <= 16 else 0.75
-        self.across, self.down = self.side + 0.6, self.side + 0.2
+        self.across, self.down = self.side + 0.6, self.side + 0.26
         self.tests = {test["name"]: test for test in report["tests"]}
         self.members: dict[int, list[int]] = {}
         for cell in report["cell"]:
@@ -177,7 +177,7 @@ class _Drawing:
         below = next(p for p in self.places if p.node["node"] == place.node["absent"])
         gap = 0.0 if "test" in below.node else side / 2 - 0.24
         self.arrow((x + side / 2, y + side), (x + side / 2, self.top(below) + gap), "--")
-        self.axes.text(x + side / 2 + 0.05, y + side + 0.1, "no", fontsize=8, va="center")
+        self.axes.text(x + side / 2 + 0.05, y + side + 0.14, "no", fontsize=8, va="center")
 
     def arrow(self, start: tuple[float, float], end: tuple[float, float], style: str) -> None:
         arrow = {"arrowstyle": "-|>", "linestyle": style, "color": GREY, "shrinkA": 0, "shrinkB": 0}
