@@ -219,7 +219,7 @@ class Encoder:
         if self.bits > _lib.BITS_MAX:
             raise SpaceError(
                 f"{space} would need {self.bits} bits, and a percept has at most {_lib.BITS_MAX}: "
-                "give an encoder of your own"
+                "give an encoder of your own, or for pictures an rlvc.vision.Eye"
             )
 
     def encode(self, observation: Any) -> bytes:
