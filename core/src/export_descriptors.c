@@ -11,6 +11,11 @@
 #define DIGITS 9u /* tell any two floats apart */
 #define A_LINE 8u /* numbers of a vector */
 
+/* What the numbers of a vector are. */
+static const char *type_of(const rlvc_descriptors *d) {
+    return d->form == RLVC_DESCRIPTORS_INT8 ? "int8_t" : "float";
+}
+
 /* ------------------------------------------------------------------ features */
 
 /* The first mixed node that tests the same feature, radius and all. */
@@ -38,7 +43,8 @@ void rlvc_export_descriptors_comment(rlvc_compact *c, const rlvc_descriptors *d)
     rlvc_compact_number(c, " * A percept is a uint32_t, the number of its vectors, at most ",
                         d->points);
     rlvc_compact_number(c, ", and these, of ", d->dimensions);
-    rlvc_compact_string(c, d->form == RLVC_DESCRIPTORS_INT8 ? " int8_t" : " float");
+    rlvc_compact_string(c, " ");
+    rlvc_compact_string(c, type_of(d));
     rlvc_compact_string(c, " each;\n * it lies at a multiple of 4. To be compiled with "
                            "-ffp-contract=off.\n *\n");
     do {
@@ -121,9 +127,9 @@ static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t feat
     rlvc_compact_number(c, "[", features);
     rlvc_compact_string(c, "] = {");
     put_features(c, d, 1);
-    rlvc_compact_string(c, d->form == RLVC_DESCRIPTORS_INT8 ? "static const int8_t "
-                                                            : "static const float ");
-    rlvc_compact_name(c, "", "_vector");
+    rlvc_compact_string(c, "static const ");
+    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_name(c, " ", "_vector");
     rlvc_compact_number(c, "[", features);
     rlvc_compact_number(c, "][", d->dimensions);
     rlvc_compact_string(c, "] = {");
@@ -132,55 +138,43 @@ static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t feat
 
 /* ------------------------------------------------------------------ functions */
 
-static void put_between_floats(rlvc_compact *c, uint32_t dimensions) {
-    rlvc_compact_name(c, "static inline float ",
-                      "_between(const float *a, const float *b, float limit) {\n"
-                      "    float lane[8] = {0.0f}, sum = 0.0f;\n"
-                      "    uint32_t i, k;\n"
-                      "    for (i = 0; i < ");
-    rlvc_compact_number(c, "", dimensions);
-    rlvc_compact_string(c, "u && !(sum > limit); i += k) {\n"
-                           "        for (k = 0; k < 32u && i + k < ");
-    rlvc_compact_number(c, "", dimensions);
-    rlvc_compact_string(c, "u; k++) {\n"
-                           "            const float difference = a[i + k] - b[i + k];\n"
-                           "            lane[k % 8u] += difference * difference;\n"
-                           "        }\n"
-                           "        sum = ((lane[0] + lane[4]) + (lane[2] + lane[6])) +\n"
-                           "              ((lane[1] + lane[5]) + (lane[3] + lane[7]));\n"
-                           "    }\n"
-                           "    return sum;\n"
-                           "}\n\n");
-}
-
-static void put_between_bytes(rlvc_compact *c, uint32_t dimensions) {
-    rlvc_compact_name(c, "static inline float ",
-                      "_between(const int8_t *a, const int8_t *b, float limit) {\n"
-                      "    int32_t sum = 0;\n"
-                      "    uint32_t i, k;\n"
-                      "    for (i = 0; i < ");
-    rlvc_compact_number(c, "", dimensions);
-    rlvc_compact_string(c, "u && !((float)sum > limit); i += k)\n"
-                           "        for (k = 0; k < 32u && i + k < ");
-    rlvc_compact_number(c, "", dimensions);
-    rlvc_compact_string(c, "u; k++) {\n"
-                           "            const int32_t difference = (int32_t)a[i + k] - b[i + k];\n"
-                           "            sum += difference * difference;\n"
-                           "        }\n"
-                           "    return (float)sum;\n"
-                           "}\n\n");
+/* The squared distance of two vectors, or more than the limit. Floats are added in lanes, eight at a time. */
+static void put_between(rlvc_compact *c, const rlvc_descriptors *d) {
+    const int bytes = d->form == RLVC_DESCRIPTORS_INT8;
+    const char *number = bytes ? "int32_t" : "float";
+    rlvc_compact_name(c, "static inline float ", "_between(const ");
+    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_string(c, " *a, const ");
+    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_string(c, " *b, float limit) {\n    ");
+    rlvc_compact_string(c, bytes ? "int32_t sum = 0" : "float lane[8] = {0.0f}, sum = 0.0f");
+    rlvc_compact_number(c, ";\n    uint32_t i, k;\n    for (i = 0; i < ", d->dimensions);
+    rlvc_compact_number(c,
+                        "u && !((float)sum > limit); i += k) {\n"
+                        "        for (k = 0; k < 32u && i + k < ",
+                        d->dimensions);
+    rlvc_compact_string(c, "u; k++) {\n            const ");
+    rlvc_compact_string(c, number);
+    rlvc_compact_string(c, " difference = (");
+    rlvc_compact_string(c, number);
+    rlvc_compact_string(c, ")a[i + k] - b[i + k];\n            ");
+    rlvc_compact_string(c, bytes ? "sum" : "lane[k % 8u]");
+    rlvc_compact_string(c, " += difference * difference;\n        }\n");
+    rlvc_compact_string(c, bytes ? ""
+                                 : "        sum = ((lane[0] + lane[4]) + (lane[2] + lane[6])) +\n"
+                                   "              ((lane[1] + lane[5]) + (lane[3] + lane[7]));\n");
+    rlvc_compact_string(c, "    }\n    return (float)sum;\n}\n\n");
 }
 
 /* Whether a percept exhibits a feature. */
 static void put_present(rlvc_compact *c, const rlvc_descriptors *d) {
-    const char *type = d->form == RLVC_DESCRIPTORS_INT8 ? "int8_t" : "float";
     rlvc_compact_name(
         c, "static inline unsigned ",
         "_present(const void *percept, unsigned feature) {\n    const float radius = ");
     rlvc_compact_name(c, "", "_radius[feature], limit = radius * radius;\n    const ");
-    rlvc_compact_string(c, type);
+    rlvc_compact_string(c, type_of(d));
     rlvc_compact_string(c, " *vector = (const ");
-    rlvc_compact_string(c, type);
+    rlvc_compact_string(c, type_of(d));
     rlvc_compact_string(c, " *)((const unsigned char *)percept + 4);\n"
                            "    uint32_t count, i;\n"
                            "    for (i = 0; i < 4u; i++)\n"
@@ -215,10 +209,7 @@ uint32_t rlvc_export_descriptors(rlvc_compact *c, const rlvc_descriptors *d) {
     rlvc_compact_string(c, "#include <stdint.h>\n\n");
     const uint32_t features = put_nodes(c);
     put_tables(c, d, features);
-    if (d->form == RLVC_DESCRIPTORS_INT8)
-        put_between_bytes(c, d->dimensions);
-    else
-        put_between_floats(c, d->dimensions);
+    put_between(c, d);
     put_present(c, d);
     put_act(c);
     return c->mixed * (rlvc_compact_fits_bytes(c) ? 3u : 12u) +

@@ -175,8 +175,8 @@ learnt learn_case(uint32_t i) {
     if (i >= 5)
         return learn_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8);
     static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};
-    static const uint32_t capacity[] = {4000, 100, 30000, 30000, 45000};
-    static const uint32_t depth[] = {0, 0, 4, 5, 6};
+    static const uint32_t capacity[] = {4000, 100, 30000, 12000, 45000};
+    static const uint32_t depth[] = {0, 0, 4, 4, 6};
     learnt made = {NULL, bits[i], NULL};
     rlvc_domain domain;
     rlvc_config config;

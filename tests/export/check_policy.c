@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Proves the exported policies equal to the agents that they were exported from: on every percept up to
  * 20 bits, else on a path to each leaf of the tree (many, the other bits being random) and on a million
- * random percepts; of descriptors on a million random percepts, of which half have a vector whose distance
- * from a feature is its radius up to a few roundings. And an agent that learnt the same exports the same, to the letter. */
+ * random percepts; of descriptors on RLVC_EXPORT_VECTORS random percepts, of which half have a vector whose
+ * distance from a feature is its radius up to a few roundings. And an agent that learnt the same exports the
+ * same, to the letter. */
 #include "bytes.h"
 #include "cases.h"
 #include "floats.h"
@@ -15,7 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BYTES_MAX RLVC_BITS_PERCEPT_BYTES(300)
+#define BYTES_MAX (RLVC_BITS_PERCEPT_BYTES(300) + 2u) /* whole words */
 
 static uint64_t state = 1;
 
@@ -91,8 +92,10 @@ static int check_some(const learnt *made, uint32_t i) {
     if (rlvc_stats(made->agent, &statistics) != RLVC_OK)
         return 0;
     for (uint32_t n = 0; n < 1000000u; n++) {
-        for (uint32_t byte = 0; byte < sizeof percept; byte++)
-            percept[byte] = (unsigned char)draw(&state);
+        for (uint32_t byte = 0; byte < RLVC_BITS_PERCEPT_BYTES(made->bits); byte += 4u) {
+            const uint32_t four = draw(&state);
+            memcpy(percept + byte, &four, sizeof four);
+        }
         if (n < 100u * statistics.classes) {
             uint32_t wanted = n % statistics.classes, found = UINT32_MAX;
             lead_to(made, wanted, statistics.classes, percept);
@@ -131,7 +134,7 @@ static int check_vectors(const learnt *made, uint32_t i) {
     rlvc_statistics statistics;
     if (rlvc_stats(made->agent, &statistics) != RLVC_OK || statistics.classes < 4)
         return 0;
-    for (uint32_t n = 0; n < 1000000u; n++) {
+    for (uint32_t n = 0; n < RLVC_EXPORT_VECTORS; n++) {
         vectors percept;
         uint32_t class_id = 0;
         memset(&percept, 0, sizeof percept);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* make_policy CASE FILE: writes the exported policy of a case. */
+/* make_policy CASE FILE: writes the exported policy of a case; or, where CASE is maze_agent, what the agent
+ * of the case maze does at every percept, four actions to a byte. */
 #include "cases.h"
 
 #include <stdio.h>
@@ -9,30 +10,56 @@ static int put(void *ctx, const char *text, size_t bytes) {
     return fwrite(text, 1, bytes, ctx) != bytes;
 }
 
-static int export_case(uint32_t i, const char *name, const char *path) {
+static int export_case(uint32_t i, const char *name, FILE *file) {
     rlvc_export_info info;
     learnt made = learn_case(i);
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        perror(path);
+    if (rlvc_export_c(made.agent, name, put, file, &info) != RLVC_OK)
         return 2;
-    }
-    rlvc_status status = rlvc_export_c(made.agent, name, put, file, &info);
-    if (fclose(file) != 0 || status != RLVC_OK) {
-        fprintf(stderr, "%s: could not be written\n", path);
-        return 2;
-    }
     printf("%s: %u leaves, %u left, %u bytes of constants\n", name, (unsigned)info.leaves,
            (unsigned)info.compact, (unsigned)info.bytes);
     return 0;
 }
 
-int main(int argc, char **argv) {
-    static const char *const names[CASES] = CASE_NAMES;
-    for (uint32_t i = 0; argc == 3 && i < CASES; i++) {
-        if (strcmp(argv[1], names[i]) == 0)
-            return export_case(i, names[i], argv[2]);
+static int write_actions(FILE *file) {
+    learnt made = learn_case(0);
+    fprintf(file, "static const unsigned char maze_agent[%u] = {", (1u << made.bits) / 4u);
+    for (uint32_t value = 0, four = 0; value < 1u << made.bits; value++) {
+        const unsigned char percept[3] = {(unsigned char)value, (unsigned char)(value >> 8),
+                                          (unsigned char)(value >> 16)};
+        uint32_t action;
+        if (rlvc_predict(made.agent, percept, NULL, &action) != RLVC_OK)
+            return 2;
+        four = four >> 2 | action << 6;
+        if (value % 4u == 3u)
+            fprintf(file, value % 128u == 3u ? "\n%u," : "%u,", (unsigned)four);
     }
-    fprintf(stderr, "usage: make_policy maze|single|bytes|wide|many|floats|int8s FILE\n");
-    return 2;
+    fprintf(file, "};\n");
+    return 0;
+}
+
+static int write_case(const char *name, FILE *file) {
+    static const char *const names[CASES] = CASE_NAMES;
+    for (uint32_t i = 0; i < CASES; i++) {
+        if (strcmp(name, names[i]) == 0)
+            return export_case(i, name, file);
+    }
+    return strcmp(name, "maze_agent") == 0 ? write_actions(file) : 2;
+}
+
+int main(int argc, char **argv) {
+    if (argc != 3) {
+        fprintf(stderr, "usage: make_policy CASE FILE\n");
+        return 2;
+    }
+    FILE *file = fopen(argv[2], "w");
+    if (!file) {
+        perror(argv[2]);
+        return 2;
+    }
+    int failed = write_case(argv[1], file);
+    if (fclose(file) != 0 || failed) {
+        fprintf(stderr, "%s: could not be written to %s\n", argv[1], argv[2]);
+        return 2;
+    }
+    return 0;
 }

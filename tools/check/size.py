@@ -27,6 +27,9 @@ TARGETS = {  # name: prefix, options of the processor
 }
 PICOLIBC = "--specs=picolibc.specs"
 FLAGS = ["-std=c99", "-ffp-contract=off", "-ffunction-sections", "-fdata-sections", PICOLIBC]
+BARE = ["--crt0=minimal", "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000",
+        "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x80200000",
+        "-Wl,--defsym=__ram_size=0x10000"]  # an image that has nothing but what it needs
 FLASH_MAX = 20 * 1024  # of the library without printing and of the helpers, on the M3 by -Os
 RAM_MAX = 32 * 1024    # of learning the Binary Gridworld there
 LEVELS = ("-O2", "-Os", "-Os -flto")
@@ -108,10 +111,8 @@ def linked(target, level, objects, folder):
                               ("helpers", HELPERS, []), ("learner", LEARNER, objects.values())):
         source, image = folder / f"{name}.c", folder / f"{name}.elf"
         source.write_text(text, encoding="utf-8")
-        run(prefix + "gcc", *FLAGS, *options, *level.split(), f"-I{ROOT}/core/include", "--crt0=minimal",
-            "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000",
-            "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x80200000",
-            "-Wl,--defsym=__ram_size=0x10000", source, *parts, "-o", image)
+        run(prefix + "gcc", *FLAGS, *options, *level.split(), f"-I{ROOT}/core/include", *BARE, source,
+            *parts, "-o", image)
         code, constants, _ = sections(prefix, image)
         flash.append(code + constants)
     return flash[2] - flash[1], flash[1] - flash[0]

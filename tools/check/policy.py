@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the exported policy of the maze takes on a Cortex-M0, by -Os: the bytes of an image that holds nothing
+else than the policy, the start-up code and the table of interrupts; and the policy's stack. Both must be
+within their limits, and the policy must need no memory beside the stack and no function of others."""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import size
+
+FLASH_MAX = 600
+STACK_MAX = 64
+MAIN = """
+unsigned maze_policy(const unsigned char *percept);
+int main(void) { return (int)maze_policy((const unsigned char *)0x20000000); }
+"""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=pathlib.Path, help="where maze.h is")
+    arguments = parser.parse_args()
+    prefix, options = size.TARGETS["M0"]
+    gcc = [prefix + "gcc", *size.FLAGS, *options, "-Os", f"-I{arguments.folder}"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "main.c").write_text(MAIN, encoding="utf-8")
+        size.run(*gcc, "-fstack-usage", "-c", size.ROOT / "tests/targets/maze_policy.c", "-o",
+                 folder / "policy.o")
+        size.run(*gcc, *size.BARE, folder / "main.c", folder / "policy.o", "-o", folder / "image.elf")
+        needed = size.run(prefix + "nm", "-u", folder / "policy.o").split()
+        policy = size.sections(prefix, folder / "policy.o")
+        image = size.sections(prefix, folder / "image.elf")
+        stack = int((folder / "policy.su").read_text(encoding="utf-8").split("\t")[1])
+    print(f"the policy: {policy[0]} bytes of code, {policy[1]} of constants, {stack} of stack; "
+          f"the image: {image[0] + image[1]}")
+    if needed or policy[2] > 0 or image[0] + image[1] > FLASH_MAX or stack > STACK_MAX:
+        print(f"too much: the limits are {FLASH_MAX} bytes of flash and {STACK_MAX} of stack; of memory "
+              f"{policy[2]} are needed, and the functions {needed}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
