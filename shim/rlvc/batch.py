@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -157,24 +158,26 @@ class Batch:
         before, after, choices, rewards, ends = (
             np.zeros(shape, dtype)[:] for shape, dtype in (percepts, percepts, *numbers)
         )
-        self._arrays = (before, choices, rewards, after, ends)
+        self._percepts, self._next_percepts = before, after
+        self._choices, self._rewards, self._ends = choices, rewards, ends
         self._agent = agent
         self._count = count
-        self._native = native_log(domain, agent.config.actions, *self._arrays)
+        arrays = (before, choices, rewards, after, ends)
+        self._native = native_log(domain, agent.config.actions, *arrays)
         self._taken: int | None = None
         self._done = ctypes.c_size_t()
-        self._references = (ctypes.byref(self._native), ctypes.byref(self._done))
+        self._log, self._stopped = ctypes.byref(self._native), ctypes.byref(self._done)
         if count * domain.percept_bytes <= _QUICK_BYTES:
             self._act, self._observe = _lib.call.rlvc_shim_act, _lib.call.rlvc_shim_observe
         else:
             self._act = lambda _, *rest: agent._long("rlvc_shim_act", *rest)
             self._observe = lambda _, *rest: agent._long("rlvc_shim_observe", *rest)
 
-    percepts = property(lambda self: self._arrays[0])
-    choices = property(lambda self: self._arrays[1])
-    rewards = property(lambda self: self._arrays[2])
-    next_percepts = property(lambda self: self._arrays[3])
-    ends = property(lambda self: self._arrays[4])
+    percepts = property(attrgetter("_percepts"))
+    choices = property(attrgetter("_choices"))
+    rewards = property(attrgetter("_rewards"))
+    next_percepts = property(attrgetter("_next_percepts"))
+    ends = property(attrgetter("_ends"))
 
     def _take(self, count: int | None) -> None:
         """Let C see the first `count` environments, or all."""
@@ -205,10 +208,10 @@ class Batch:
         """
         if count is not self._taken:
             self._take(count)
-        status = self._act(self._agent._handle, *self._references)
+        status = self._act(self._agent._handle, self._log, self._stopped)
         if status:
             self._agent._fail(status, self._done.value)
-        return self._arrays[1] if count is None else self._arrays[1][:count]
+        return self._choices if count is None else self._choices[:count]
 
     def observe(self, count: int | None = None) -> None:
         """Store an interaction of each environment.
@@ -227,6 +230,6 @@ class Batch:
         """
         if count is not self._taken:
             self._take(count)
-        status = self._observe(self._agent._handle, *self._references)
+        status = self._observe(self._agent._handle, self._log, self._stopped)
         if status:
             self._agent._fail(status, self._done.value)
