@@ -17,11 +17,13 @@
 #include <string.h>
 
 #define LANES 8u
-#define CHUNK 32u
+#define CHUNK 32u /* numbers between two looks at the limit */
 #define BINS 64u
 #define GAP_MIN 7u    /* bins; narrower gaps are refused */
 #define GAP_BEYOND 5u /* the radius leaves 1 / GAP_BEYOND of the gap beyond it */
 #define MEASURED 512u /* percepts */
+#define STRIDE 1733u  /* between them: a prime, so that the first come from many targets */
+#define INT8_FARTHEST 16777216.0f
 #define NUMBER_MAX 1e15f
 #define REFUSED (-1.0f)
 
@@ -83,59 +85,108 @@ static float between_floats(const float *a, const float *b, uint32_t n, float li
     return sum_of(lane);
 }
 
-static inline int32_t between_chunks(const int8_t *a, const int8_t *b, uint32_t n) {
+/* Likewise. Chunks are of a length that is not known beforehand, but is a multiple of 16: of that compilers
+ * make vector code, while a loop of 16 would be unrolled. */
+static inline int32_t between_bytes(const int8_t *a, const int16_t *b, uint32_t n, int32_t limit) {
+    const uint32_t even = n & ~15u;
     int32_t sum = 0;
-    for (uint32_t k = 0; k < n; k++) {
-        const int16_t difference = (int16_t)(a[k] - b[k]);
+    uint32_t i = 0;
+    while (i < even && sum <= limit) {
+        const uint32_t to = even - i < CHUNK ? even : i + CHUNK;
+        for (; i < to; i++) {
+            const int16_t difference = (int16_t)(a[i] - b[i]);
+            sum += (int32_t)difference * difference;
+        }
+    }
+    for (; i < n; i++) {
+        const int16_t difference = (int16_t)(a[i] - b[i]);
         sum += (int32_t)difference * difference;
     }
     return sum;
 }
 
-static float between_bytes(const int8_t *a, const int8_t *b, uint32_t n, float limit) {
-    int32_t sum = 0;
-    uint32_t i = 0;
-    for (; n - i >= CHUNK; i += CHUNK) {
-        sum += between_chunks(a + i, b + i, CHUNK);
-        if ((float)sum > limit)
-            return (float)sum;
-    }
-    return (float)(sum + between_chunks(a + i, b + i, n - i));
+/* The vector of a feature in the form that distances are taken in. */
+typedef struct probe {
+    const float *number;
+    int16_t
+        wide[RLVC_DESCRIPTORS_DIMENSIONS_MAX]; /* of int8 vectors: less work for each distance */
+} probe;
+
+static void open_probe(const rlvc_descriptors *d, const void *feature, probe *made) {
+    const void *vector = vector_at(d, feature, 0);
+    made->number = (const float *)vector;
+    for (uint32_t k = 0; k < d->dimensions && d->form == RLVC_DESCRIPTORS_INT8; k++)
+        made->wide[k] = ((const int8_t *)vector)[k];
 }
 
-/* The squared distance of vector i of a percept from a feature's, or any number above the limit. */
-static inline float distance(const rlvc_descriptors *d, const void *percept, uint32_t i,
-                             const void *feature, float limit) {
-    const void *a = vector_at(d, percept, i);
-    const void *b = vector_at(d, feature, 0);
-    if (d->form == RLVC_DESCRIPTORS_INT8)
-        return between_bytes((const int8_t *)a, (const int8_t *)b, d->dimensions, limit);
-    return between_floats((const float *)a, (const float *)b, d->dimensions, limit);
+/* The number that follows a finite one that is not negative. */
+static float after(float number) {
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    bits++;
+    memcpy(&number, &bits, sizeof number);
+    return number;
 }
 
-static uint8_t within(const rlvc_descriptors *d, const void *percept, const void *feature) {
-    const float radius = rlvc_descriptors_radius(feature);
-    const float limit = radius * radius;
-    const uint32_t count = radius < 0.0f ? 0 : count_of(percept);
-    for (uint32_t i = 0; i < count; i++)
-        if (distance(d, percept, i, feature, limit) <= limit)
-            return 1;
-    return 0;
+/* The least whole number that is not below a squared distance; none of int8 vectors reaches the highest. */
+static int32_t whole_of(float squared) {
+    if (!(squared < INT8_FARTHEST))
+        return (int32_t)INT8_FARTHEST;
+    const int32_t below = (int32_t)squared;
+    return below + ((float)below < squared);
 }
 
-/* The least squared distance of the first `count` vectors, at most `limit`: there is none nearer than that
- * if it is `limit`. *point, where it is. */
-static float nearest(const rlvc_descriptors *d, const void *percept, uint32_t count,
-                     const void *feature, float limit, uint32_t *point) {
-    float least = limit;
-    for (uint32_t i = 0; i < count; i++) {
-        const float squared = distance(d, percept, i, feature, least);
+/* The least squared distance that is below the limit, else the limit. The first that is below `enough` will
+ * do. *point, where it is. */
+static int32_t nearest_bytes(const int8_t *vector, uint32_t count, uint32_t n,
+                             const int16_t *wanted, int32_t enough, int32_t limit,
+                             uint32_t *point) {
+    int32_t least = limit;
+    for (uint32_t i = 0; i < count && least >= enough; i++, vector += n) {
+        const int32_t squared = between_bytes(vector, wanted, n, least);
         if (squared < least) {
             least = squared;
             *point = i;
         }
     }
     return least;
+}
+
+static float nearest_floats(const float *vector, uint32_t count, uint32_t n, const float *wanted,
+                            float enough, float limit, uint32_t *point) {
+    float least = limit;
+    for (uint32_t i = 0; i < count && least >= enough; i++, vector += n) {
+        const float squared = between_floats(vector, wanted, n, least);
+        if (squared < least) {
+            least = squared;
+            *point = i;
+        }
+    }
+    return least;
+}
+
+static float nearest(const rlvc_descriptors *d, const void *percept, const probe *wanted,
+                     float enough, float limit, uint32_t *point) {
+    const void *vectors = vector_at(d, percept, 0);
+    const uint32_t count = count_of(percept);
+    if (d->form != RLVC_DESCRIPTORS_INT8)
+        return nearest_floats((const float *)vectors, count, d->dimensions, wanted->number, enough,
+                              limit, point);
+    const int32_t beyond = whole_of(limit);
+    const int32_t least = nearest_bytes((const int8_t *)vectors, count, d->dimensions, wanted->wide,
+                                        whole_of(enough), beyond, point);
+    return least < beyond ? (float)least : limit;
+}
+
+static uint8_t within(const rlvc_descriptors *d, const void *percept, const void *feature) {
+    const float radius = rlvc_descriptors_radius(feature);
+    if (radius < 0.0f)
+        return 0;
+    const float beyond = after(radius * radius);
+    uint32_t point = 0;
+    probe wanted;
+    open_probe(d, feature, &wanted);
+    return nearest(d, percept, &wanted, beyond, beyond, &point) < beyond;
 }
 
 static int exhibits(void *ctx, const void *percept, const void *feature, uint8_t *present) {
@@ -165,65 +216,122 @@ static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32
 
 /* ------------------------------------------------------------------ the margin rule */
 
+/* How the class's percepts lie about a vector, as far as they have been looked at. A row of empty bins can
+ * only shrink. So bins count only from the first to the last row that is still longer than what is asked
+ * for: of percepts beyond, it need not be known how far they are. */
+typedef struct crowd {
+    float edge[BINS + 1u]; /* squared distances between which the bins lie */
+    uint8_t taken[BINS];   /* is there a percept in the bin? */
+    uint32_t from, to;     /* the bins that count; none if equal */
+    uint8_t nearer;        /* is there a percept before them, */
+    uint8_t farther;       /* or behind? */
+} crowd;
+
 /* What a vector's distances leave empty. */
 typedef struct gap {
     uint32_t width; /* bins; 0: there is none */
     float radius;   /* in it */
 } gap;
 
-/* The bin of a squared distance in [edge[0], edge[BINS]). */
-static uint32_t bin_of(const float edge[BINS + 1u], float squared) {
-    uint32_t low = 0, high = BINS;
+static float low_of(const rlvc_descriptors *d) {
+    return d->radius / d->margin;
+}
+
+static float step_of(const rlvc_descriptors *d) {
+    return (d->radius * d->margin - low_of(d)) / (float)BINS;
+}
+
+static void open_crowd(const rlvc_descriptors *d, crowd *made) {
+    memset(made, 0, sizeof *made);
+    for (uint32_t b = 0; b <= BINS; b++) {
+        const float edge = low_of(d) + step_of(d) * (float)b;
+        made->edge[b] = edge * edge;
+    }
+    made->to = BINS;
+}
+
+/* Leaves out the bins before and behind all rows longer than `width`. */
+static void narrow(crowd *all, uint32_t width) {
+    uint32_t row = 0, from = all->to, to = all->from;
+    for (uint32_t b = all->from; b < all->to; b++) {
+        row = all->taken[b] ? 0 : row + 1u;
+        if (row > width) {
+            from = from < b + 1u - row ? from : b + 1u - row;
+            to = b + 1u;
+        }
+    }
+    for (uint32_t b = all->from; b < all->to; b++) {
+        all->nearer |= (uint8_t)(all->taken[b] && b < from);
+        all->farther |= (uint8_t)(all->taken[b] && b >= to);
+    }
+    all->from = from < to ? from : to;
+    all->to = to;
+}
+
+/* Puts a percept to the others, by its squared distance. */
+static void join(crowd *all, float squared, uint32_t width) {
+    uint32_t low = all->from, high = all->to;
+    if (squared < all->edge[low]) {
+        all->nearer = 1;
+        return;
+    }
+    if (squared >= all->edge[high]) {
+        all->farther = 1;
+        return;
+    }
     while (high - low > 1u) {
         const uint32_t middle = (low + high) / 2u;
-        if (squared < edge[middle])
+        if (squared < all->edge[middle])
             high = middle;
         else
             low = middle;
     }
-    return low;
+    if (!all->taken[low]) {
+        all->taken[low] = 1;
+        narrow(all, width);
+    }
 }
 
-/* The longest row of empty bins with a percept on both sides, of equals the nearest. `below` percepts are
- * nearer than all bins, and `measured` are there in all. */
-static gap widest(const uint32_t bin[BINS], uint32_t below, uint32_t measured, float low,
-                  float step) {
+/* The longest row of empty bins with a percept on both sides, of equals the nearest. */
+static gap widest(const rlvc_descriptors *d, const crowd *all) {
     gap best = {0, REFUSED};
-    uint32_t row = 0;
-    for (uint32_t b = 0; b < BINS && below < measured; b++) {
-        row = bin[b] == 0 ? row + 1u : 0;
-        below += bin[b];
-        if (row > best.width && below > 0) {
+    uint32_t row = 0, last = all->farther ? all->to : all->from;
+    uint8_t nearer = all->nearer;
+    for (uint32_t b = all->from; b < all->to; b++)
+        last = all->taken[b] && last < b ? b : last;
+    for (uint32_t b = all->from; b < last; b++) {
+        row = all->taken[b] ? 0 : row + 1u;
+        nearer |= all->taken[b];
+        if (row > best.width && nearer) {
             best.width = row;
-            best.radius = low + step * ((float)(b + 1u) - (float)row / (float)GAP_BEYOND);
+            best.radius =
+                low_of(d) + step_of(d) * ((float)(b + 1u) - (float)row / (float)GAP_BEYOND);
         }
     }
     return best;
 }
 
-/* Measures a feature's vector against the class. */
+/* Measures a feature's vector against the class: finds its gap, if that is wider than *found. */
 static int measure(const rlvc_descriptors *d, const rlvc_samples *samples, const void *feature,
                    gap *found) {
-    const float low = d->radius / d->margin;
-    const float step = (d->radius * d->margin - low) / (float)BINS;
     const uint32_t measured = samples->count < MEASURED ? samples->count : MEASURED;
-    float edge[BINS + 1u];
-    uint32_t bin[BINS] = {0}, below = 0, point = 0;
-    for (uint32_t b = 0; b <= BINS; b++)
-        edge[b] = (low + step * (float)b) * (low + step * (float)b);
-    for (uint32_t i = 0; i < measured; i++) {
-        const uint32_t at = (uint32_t)((uint64_t)i * samples->count / measured);
-        const void *percept = rlvc_samples_percept(samples, at);
-        const uint32_t count = count_of(percept);
-        if (count > d->points)
+    uint32_t at = 0, point = 0;
+    crowd all;
+    probe wanted;
+    open_crowd(d, &all);
+    open_probe(d, feature, &wanted);
+    for (uint32_t i = 0; i < measured && all.from < all.to; i++) {
+        const void *percept =
+            rlvc_samples_percept(samples, (uint32_t)((uint64_t)at * samples->count / measured));
+        if (count_of(percept) > d->points)
             return -1;
-        const float squared = nearest(d, percept, count, feature, edge[BINS], &point);
-        if (squared < edge[0])
-            below++;
-        else if (squared < edge[BINS])
-            bin[bin_of(edge, squared)]++;
+        join(&all, nearest(d, percept, &wanted, all.edge[all.from], all.edge[all.to], &point),
+             found->width);
+        at = (at + STRIDE) % measured;
     }
-    *found = widest(bin, below, measured, low, step);
+    const gap made = widest(d, &all);
+    if (made.width > found->width)
+        *found = made;
     return 0;
 }
 
@@ -284,18 +392,21 @@ static int draw(const rlvc_descriptors *d, const rlvc_samples *samples, uint32_t
     unsigned char *record = (unsigned char *)aligned;
     unsigned char *out = features + (size_t)written * feature_bytes(d);
     const uint32_t draws = d->margin > 1.0f ? d->draws : 1u;
+    const gap fixed = {BINS, d->radius};
     gap best = {GAP_MIN - 1u, REFUSED};
     memset(out, 0, feature_bytes(d));
     memcpy(out, &best.radius, sizeof best.radius);
     for (uint32_t t = 0; t < draws; t++) {
         const uint32_t chance = scatter(number * RLVC_DESCRIPTORS_DRAWS_MAX + t + 1u);
         const void *percept = rlvc_samples_percept(samples, run[0] + chance % (run[1] - run[0]));
-        gap found = {BINS, d->radius};
+        gap found = best;
         if (count_of(percept) > d->points)
             return -1;
         if (!put(d, percept, scatter(chance), features, written, record))
             continue;
-        if (d->margin > 1.0f && measure(d, samples, record, &found) != 0)
+        if (!(d->margin > 1.0f))
+            found = fixed;
+        else if (measure(d, samples, record, &found) != 0)
             return -1;
         if (found.width > best.width) {
             best = found;
@@ -403,7 +514,9 @@ rlvc_status rlvc_descriptors_nearest(const rlvc_descriptors *descriptors, const 
     if (count == 0 || count > descriptors->points)
         return RLVC_E_RANGE;
     uint32_t at = 0;
-    const float least = nearest(descriptors, percept, count, feature, unlimited, &at);
+    probe wanted;
+    open_probe(descriptors, feature, &wanted);
+    const float least = nearest(descriptors, percept, &wanted, 0.0f, unlimited, &at);
     if (point != NULL)
         *point = at;
     if (squared != NULL)
