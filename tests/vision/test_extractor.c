@@ -92,8 +92,14 @@ static void test_configs_refused(void **state) {
     REFUSE(sigma, INFINITY);
     REFUSE(sigma, 0.0f);
     rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
-    config.reserved[1] = 1;
+    config.reserved = 1;
     refuse_config(&config, "config.reserved");
+    config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
+    config.axes = 9;
+    refuse_config(&config, "config.axes");
+    assert_int_equal(rlvc_vision_dimensions(&config), 0);
+    assert_int_equal(rlvc_vision_percept_bytes(&config), 0);
+    assert_int_equal(rlvc_vision_dimensions(NULL), 0);
     assert_int_equal(rlvc_vision_config_default(RLVC_DESCRIPTORS, &config), RLVC_VISION_E_RANGE);
     assert_int_equal(rlvc_vision_config_default(0, NULL), RLVC_VISION_E_NULL);
     assert_int_equal(rlvc_vision_config_check(NULL, NULL), RLVC_VISION_E_NULL);

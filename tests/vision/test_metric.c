@@ -128,6 +128,7 @@ static void test_tau_gives_the_share(void **state) {
     check_share(RLVC_DESCRIPTOR_SIFT_UPRIGHT, RLVC_METRIC_PLAIN, 0.1f);
     check_share(RLVC_DESCRIPTOR_SIFT, RLVC_METRIC_CHANGE, 0.1f);
     check_share(RLVC_DESCRIPTOR_ORB, RLVC_METRIC_PLAIN, 0.1f);
+    check_share(RLVC_DESCRIPTOR_SIFT_UPRIGHT, RLVC_METRIC_DISCRIMINANT, 0.1f);
 }
 
 /* Under the metric of change, a copy's vectors move by about 1 in each number. */
@@ -156,6 +157,74 @@ static void test_change_becomes_one(void **state) {
     assert_true(square / numbers > 0.5 && square / numbers < 2);
     rlvc_extractor_destroy(extractor);
     rlvc_metric_destroy(metric);
+}
+
+static void refuse_metric(const rlvc_metric *metric, const rlvc_vision_config *config,
+                          const char *what) {
+    rlvc_vision_error error;
+    rlvc_extractor *extractor = NULL;
+    assert_int_equal(rlvc_extractor_create(config, metric, &extractor, &error),
+                     RLVC_VISION_E_DESCRIPTOR);
+    assert_null(extractor);
+    if (strstr(error.text, what) == NULL)
+        fail_msg("\"%s\" does not name %s", error.text, what);
+}
+
+/* Of all axes the first ones stay; each tells things apart better than the next. */
+static void test_axes(void **state) {
+    (void)state;
+    enum { AXES = 5 };
+    rlvc_vision_error error;
+    rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_SIFT_UPRIGHT), few = config;
+    few.axes = AXES;
+    assert_int_equal(rlvc_vision_dimensions(&config), 128);
+    assert_int_equal(rlvc_vision_dimensions(&few), AXES);
+    rlvc_metric *all = fitted(&config, RLVC_METRIC_DISCRIMINANT);
+    rlvc_metric *first = fitted(&few, RLVC_METRIC_DISCRIMINANT);
+    double spread[AXES] = {0};
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        test_picture made = test_picture_make(96, 96, RLVC_PICTURE_BGR, i);
+        look_once(&config, all, &made.picture, &a);
+        look_once(&few, first, &made.picture, &b);
+        assert_int_equal(a.count, b.count);
+        for (uint32_t p = 0; p < a.count; p++)
+            for (uint32_t k = 0; k < AXES; k++) {
+                const float number = b.vector.real[p * AXES + k];
+                assert_true(fabsf(number - a.vector.real[p * 128 + k]) < 1e-4f);
+                spread[k] += (double)(number * number);
+            }
+        test_picture_free(&made);
+    }
+    for (uint32_t k = 1; k < AXES; k++)
+        assert_true(spread[k] < spread[k - 1]);
+    refuse_metric(first, &config, "axes 5");
+    rlvc_fitter *fitter = fed(&few, RLVC_PAIR_COPIES);
+    rlvc_metric *none = NULL;
+    assert_int_equal(rlvc_fitter_fit(fitter, RLVC_METRIC_CHANGE, SHARE, &none, &error),
+                     RLVC_VISION_E_RANGE);
+    assert_non_null(strstr(error.text, "config.axes is 5"));
+    rlvc_extractor *extractor = NULL;
+    assert_int_equal(rlvc_extractor_create(&few, NULL, &extractor, &error), RLVC_VISION_E_METRIC);
+    rlvc_fitter_destroy(fitter);
+    rlvc_metric_destroy(all);
+    rlvc_metric_destroy(first);
+}
+
+/* Pictures that never change leave every direction alike. */
+static void test_axes_without_change(void **state) {
+    (void)state;
+    rlvc_vision_error error;
+    rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_SQRT_INVARIANTS);
+    config.axes = 2;
+    rlvc_fitter *fitter = fitter_of(&config);
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        test_picture made = test_picture_make(96, 96, RLVC_PICTURE_BGR, i);
+        assert_ok(rlvc_fitter_add(fitter, &made.picture, i, &error));
+        assert_ok(rlvc_fitter_pair(fitter, &made.picture, &made.picture, RLVC_PAIR_COPIES, &error));
+        test_picture_free(&made);
+    }
+    rlvc_metric_destroy(fit(fitter, RLVC_METRIC_DISCRIMINANT, SHARE));
+    rlvc_fitter_destroy(fitter);
 }
 
 static void test_views_find_their_partners(void **state) {
@@ -234,12 +303,13 @@ static char *text_of(const rlvc_metric *metric, size_t *bytes) {
 static void test_text_comes_back(void **state) {
     (void)state;
     for (uint32_t descriptor = 0; descriptor < RLVC_DESCRIPTORS; descriptor++)
-        for (uint32_t kind = 0; kind <= RLVC_METRIC_CHANGE; kind++) {
+        for (uint32_t kind = 0; kind <= RLVC_METRIC_DISCRIMINANT; kind++) {
             rlvc_vision_error error;
             rlvc_vision_config config = config_of(descriptor), kept;
             if (descriptor == RLVC_DESCRIPTOR_ORB && kind != RLVC_METRIC_PLAIN)
                 continue; /* too few vectors for so many numbers */
             config.points = 77;
+            config.axes = kind == RLVC_METRIC_DISCRIMINANT ? 3 : 0;
             rlvc_metric *metric = fitted(&config, kind), *read = NULL;
             size_t bytes, again;
             char *text = text_of(metric, &bytes);
@@ -343,6 +413,8 @@ static void test_values_refused(void **state) {
         {"radius", "0"},
         {"normalise", "2"},
         {"normalise", "256"},
+        {"axes", "4"},
+        {"axes", "256"},
         {"form", "true"},
         {"sd", "0"},
         {"si", "\"2\""},
@@ -377,17 +449,6 @@ static void test_values_refused(void **state) {
 
 /* ------------------------------------------------------------------------- refusals */
 
-static void refuse_metric(const rlvc_metric *metric, const rlvc_vision_config *config,
-                          const char *what) {
-    rlvc_vision_error error;
-    rlvc_extractor *extractor = NULL;
-    assert_int_equal(rlvc_extractor_create(config, metric, &extractor, &error),
-                     RLVC_VISION_E_DESCRIPTOR);
-    assert_null(extractor);
-    if (strstr(error.text, what) == NULL)
-        fail_msg("\"%s\" does not name %s", error.text, what);
-}
-
 static void test_other_descriptors_refused(void **state) {
     (void)state;
     rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
@@ -415,7 +476,7 @@ static void test_too_few(void **state) {
     rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_SQRT_INVARIANTS);
     rlvc_fitter *fitter = fitter_of(&config);
     rlvc_metric *metric = NULL;
-    for (uint32_t kind = 0; kind <= RLVC_METRIC_CHANGE; kind++)
+    for (uint32_t kind = 0; kind <= RLVC_METRIC_DISCRIMINANT; kind++)
         assert_int_equal(rlvc_fitter_fit(fitter, kind, SHARE, &metric, &error), RLVC_VISION_E_FEW);
     test_picture made = test_picture_make(96, 96, RLVC_PICTURE_BGR, 1);
     for (int i = 0; i < 3; i++) {
@@ -450,7 +511,7 @@ static void test_calls_refused(void **state) {
     for (size_t i = 0; i < 4; i++)
         assert_int_equal(rlvc_fitter_fit(fitter, 0, shares[i], &metric, &error),
                          RLVC_VISION_E_RANGE);
-    assert_int_equal(rlvc_fitter_fit(fitter, 3, SHARE, &metric, &error), RLVC_VISION_E_RANGE);
+    assert_int_equal(rlvc_fitter_fit(fitter, 4, SHARE, &metric, &error), RLVC_VISION_E_RANGE);
     test_picture one = test_picture_make(20, 20, RLVC_PICTURE_BGR, 1);
     test_picture other = test_picture_make(20, 21, RLVC_PICTURE_BGR, 1);
     const rlvc_picture *p = &one.picture, *q = &other.picture;
@@ -483,6 +544,8 @@ int main(void) {
         cmocka_unit_test(test_covariance_becomes_one),
         cmocka_unit_test(test_tau_gives_the_share),
         cmocka_unit_test(test_change_becomes_one),
+        cmocka_unit_test(test_axes),
+        cmocka_unit_test(test_axes_without_change),
         cmocka_unit_test(test_views_find_their_partners),
         cmocka_unit_test(test_int8_is_near),
         cmocka_unit_test(test_a_world_without_colour),

@@ -59,8 +59,8 @@ void check(const rlvc_vision_config &config) {
     check_count("radius", config.radius, 1, 31, " pixels");
     check_count("form", config.form, RLVC_FORM_FLOAT, RLVC_FORM_INT8);
     check_count("normalise", config.normalise, 0, 1);
-    for (uint8_t reserved : config.reserved)
-        check_count("reserved", reserved, 0, 0);
+    check_count("axes", config.axes, 0, known[config.descriptor].dimensions);
+    check_count("reserved", config.reserved, 0, 0);
     check_scale("sd", config.sd, 0.5f, 4);
     check_scale("si", config.si, 0.5f, 8);
     check_share("k", config.k, 0.25f);
@@ -145,11 +145,16 @@ uint32_t rlvc_descriptor_dimensions(uint32_t descriptor) {
     return descriptor < RLVC_DESCRIPTORS ? known[descriptor].dimensions : 0;
 }
 
+uint32_t rlvc_vision_dimensions(const rlvc_vision_config *config) {
+    const uint32_t all = config != nullptr ? rlvc_descriptor_dimensions(config->descriptor) : 0;
+    return all == 0 || config->axes > all ? 0 : config->axes > 0 ? config->axes : all;
+}
+
 uint32_t rlvc_vision_percept_bytes(const rlvc_vision_config *config) {
-    if (config == nullptr || config->descriptor >= RLVC_DESCRIPTORS || config->points < 1 ||
-        config->points > RLVC_POINTS_MAX || config->form > RLVC_FORM_INT8)
+    const uint32_t dimensions = rlvc_vision_dimensions(config);
+    if (dimensions == 0 || config->points < 1 || config->points > RLVC_POINTS_MAX ||
+        config->form > RLVC_FORM_INT8)
         return 0;
-    const uint32_t dimensions = rlvc_descriptor_dimensions(config->descriptor);
     return config->form == RLVC_FORM_FLOAT ? RLVC_PERCEPT_BYTES_FLOAT(config->points, dimensions)
                                            : RLVC_PERCEPT_BYTES_INT8(config->points, dimensions);
 }

@@ -20,6 +20,8 @@ rlvc_extractor::rlvc_extractor(const rlvc_vision_config &config, const rlvc_metr
     if (metric != nullptr) {
         check_fits(*metric, config);
         metric_ = *metric;
+    } else if (config.axes > 0) {
+        throw Failure(RLVC_VISION_E_METRIC, "config.axes is not 0, which needs a metric");
     }
     if (config.form == RLVC_FORM_FLOAT)
         return;
@@ -43,12 +45,13 @@ void rlvc_extractor::quantise(const float *numbers, size_t count, int8_t *out) c
 void rlvc_extractor::extract(const Picture &picture, void *percept, rlvc_point *points) {
     eye_.look(picture);
     const size_t n = eye_.dimensions();
-    const size_t numbers = eye_.vectors().size();
+    const size_t kept = rlvc_vision_dimensions(&config());
+    const size_t numbers = eye_.points().size() * kept;
     const float *vectors = eye_.vectors().data();
     if (metric_) {
         whitened_.resize(numbers);
-        for (size_t i = 0; i < numbers; i += n)
-            whiten(*metric_, vectors + i, &whitened_[i]);
+        for (size_t i = 0; i < eye_.points().size(); i++)
+            whiten(*metric_, vectors + i * n, &whitened_[i * kept]);
         vectors = whitened_.data();
     }
 

@@ -58,11 +58,13 @@ float distance_to_nearest(const float *v, const std::vector<float> &vectors, siz
                        : std::sqrt(squared_distance(v, &vectors[at * n], n));
 }
 
+// Of n numbers a vector; what comes out has as many as the metric keeps.
 std::vector<float> whitened(const rlvc_metric &metric, const std::vector<float> &vectors,
                             size_t n) {
-    std::vector<float> out(vectors.size());
-    for (size_t i = 0; i < vectors.size(); i += n)
-        whiten(metric, &vectors[i], &out[i]);
+    const size_t kept = rlvc_vision_dimensions(&metric.config);
+    std::vector<float> out(vectors.size() / n * kept);
+    for (size_t i = 0; i < vectors.size() / n; i++)
+        whiten(metric, &vectors[i * n], &out[i * kept]);
     return out;
 }
 
@@ -150,20 +152,32 @@ void rlvc_fitter::whiten_by_covariance(rlvc_metric &metric) const {
 
 // Partners are sought under the covariance of all vectors, but for SIFT and ORB, whose distance
 // means something by itself.
-void rlvc_fitter::whiten_by_change(rlvc_metric &metric) const {
+std::vector<float> rlvc_fitter::all_changes(const rlvc_vision_config &config) const {
     rlvc_metric seeking{};
-    seeking.config = metric.config;
-    if (!(native(metric.config.descriptor).step > 0))
+    seeking.config = config;
+    seeking.config.axes = 0;
+    if (!(native(config.descriptor).step > 0))
         whiten_by_covariance(seeking);
     std::vector<float> all = changes_;
     for (const Views &views : views_) {
         const std::vector<float> more = changes(views, seeking);
         all.insert(all.end(), more.begin(), more.end());
     }
-    require(all.size() / n_, n_ + 1, "points with a partner");
+    return all;
+}
+
+void rlvc_fitter::whiten_by_change(rlvc_metric &metric) const {
+    const std::vector<float> all = all_changes(metric.config);
+    require(all.size() / n_, metric.kind == RLVC_METRIC_CHANGE ? n_ + 1 : 1,
+            "points with a partner");
     const std::vector<float> vectors = all_vectors();
     require(vectors.size() / n_, 1, "vectors");
     metric.mean = mean_of(vectors, n_);
+    if (metric.kind == RLVC_METRIC_DISCRIMINANT) {
+        metric.matrix =
+            discriminants_of(all, vectors, metric.mean, n_, rlvc_vision_dimensions(&metric.config));
+        return;
+    }
     // A change has no preferred sign, so its spread is taken about 0.
     metric.matrix = whitening_of(all, std::vector<float>(n_, 0.0f), n_);
 }
@@ -198,6 +212,7 @@ std::vector<float> rlvc_fitter::changes(const Views &views, const rlvc_metric &m
 // of another object.
 void rlvc_fitter::choose_tau_and_step(rlvc_metric &metric, float share) const {
     const size_t pictures = std::min(seen_.size(), pictures_max);
+    const size_t kept = rlvc_vision_dimensions(&metric.config);
     std::vector<std::vector<float>> sought;
     for (size_t j = 0; j < pictures; j++)
         sought.push_back(whitened(metric, seen_[even(j, pictures, seen_.size())].vectors, n_));
@@ -207,14 +222,14 @@ void rlvc_fitter::choose_tau_and_step(rlvc_metric &metric, float share) const {
     const size_t apart = std::max<size_t>(all_vectors().size() / n_ / features_max, 1);
     for (const Seen &own : seen_) {
         const std::vector<float> vectors = whitened(metric, own.vectors, n_);
-        for (size_t i = 0; i < vectors.size(); i += n_) {
+        for (size_t i = 0; i < vectors.size(); i += kept) {
             if (total++ % apart != 0)
                 continue;
-            for (size_t d = 0; d < n_; d++)
+            for (size_t d = 0; d < kept; d++)
                 numbers.push_back(std::fabs(vectors[i + d]));
             for (size_t j = 0; j < pictures; j++)
                 if (seen_[even(j, pictures, seen_.size())].object != own.object)
-                    distances.push_back(distance_to_nearest(&vectors[i], sought[j], n_));
+                    distances.push_back(distance_to_nearest(&vectors[i], sought[j], kept));
         }
     }
     if (distances.empty())
@@ -230,10 +245,16 @@ void rlvc_fitter::choose_tau_and_step(rlvc_metric &metric, float share) const {
 }
 
 rlvc_metric rlvc_fitter::fit(uint32_t kind, float share) const {
-    if (kind > RLVC_METRIC_CHANGE)
-        throw Failure(RLVC_VISION_E_RANGE,
-                      "kind is " + std::to_string(kind) +
-                          ", but must be plain (0), covariance (1) or change (2)");
+    if (kind > RLVC_METRIC_DISCRIMINANT)
+        throw Failure(
+            RLVC_VISION_E_RANGE,
+            "kind is " + std::to_string(kind) +
+                ", but must be plain (0), covariance (1), change (2) or discriminant (3)");
+    if (eye_.config().axes > 0 && kind != RLVC_METRIC_DISCRIMINANT)
+        throw Failure(RLVC_VISION_E_RANGE, "kind is " + std::to_string(kind) +
+                                               ", but config.axes is " +
+                                               std::to_string(eye_.config().axes) +
+                                               ", which only the kind discriminant (3) allows");
     if (!(share > 0 && share < 1))
         throw Failure(RLVC_VISION_E_RANGE,
                       "share is " + std::to_string(share) + ", but must be between 0 and 1");
@@ -242,7 +263,7 @@ rlvc_metric rlvc_fitter::fit(uint32_t kind, float share) const {
     metric.kind = kind;
     if (kind == RLVC_METRIC_COVARIANCE)
         whiten_by_covariance(metric);
-    else if (kind == RLVC_METRIC_CHANGE)
+    else if (kind != RLVC_METRIC_PLAIN)
         whiten_by_change(metric);
     choose_tau_and_step(metric, share);
     return metric;

@@ -32,6 +32,7 @@ struct rlvc_fitter {
     void take_room(size_t more);
     void whiten_by_covariance(rlvc_metric &metric) const;
     void whiten_by_change(rlvc_metric &metric) const;
+    std::vector<float> all_changes(const rlvc_vision_config &config) const;
     std::vector<float> changes(const Views &views, const rlvc_metric &metric) const;
     std::vector<float> all_vectors() const;
     void choose_tau_and_step(rlvc_metric &metric, float share) const;

@@ -25,7 +25,8 @@ void whiten(const rlvc_metric &metric, const float *v, float *out) {
     float centred[RLVC_DIMENSIONS_MAX];
     for (size_t i = 0; i < n; i++)
         centred[i] = v[i] - metric.mean[i];
-    for (size_t i = 0; i < n; i++) {
+    const size_t rows = metric.matrix.size() / n;
+    for (size_t i = 0; i < rows; i++) {
         const float *row = &metric.matrix[i * n];
         float sum = 0;
         for (size_t j = 0; j < n; j++)
@@ -42,6 +43,8 @@ void check_fits(const rlvc_metric &metric, const rlvc_vision_config &config) {
         refuse("sigma " + std::to_string(fitted.sigma), std::to_string(config.sigma));
     if (fitted.normalise != config.normalise)
         refuse("normalise " + std::to_string(fitted.normalise), std::to_string(config.normalise));
+    if (fitted.axes != config.axes)
+        refuse("axes " + std::to_string(fitted.axes), std::to_string(config.axes));
 }
 
 Native native(uint32_t descriptor) {

@@ -2,8 +2,8 @@
 // Whitening: W (v - m), and the text that keeps it.
 //
 // The text is a JSON object: "rlvc_metric" (the version, 1), the config that it was fitted with,
-// "kind", "tau", "step", and unless the kind is plain, "mean" (D numbers) and "matrix" (D times D,
-// W row by row). Whatever is read is checked: every key is there, every number finite and in its
+// "kind", "tau", "step", and unless the kind is plain, "mean" (D numbers) and "matrix" (D numbers
+// for each number of a percept's vector, W row by row). Whatever is read is checked: every key is there, every number finite and in its
 // range.
 #ifndef RLVC_VISION_METRIC_H
 #define RLVC_VISION_METRIC_H
@@ -20,7 +20,7 @@ struct rlvc_metric {
     float tau;
     float step;
     std::vector<float> mean;   // [D], empty if plain
-    std::vector<float> matrix; // [D][D], empty if plain
+    std::vector<float> matrix; // [rlvc_vision_dimensions][D], empty if plain
 };
 
 namespace rlvc {
@@ -28,7 +28,7 @@ namespace rlvc {
 // No number of a mean or a matrix is larger: so that whitened vectors are finite.
 constexpr float metric_number_max = 1e12f;
 
-// out = W (v - m), or v if the metric is plain.
+// out [rlvc_vision_dimensions] = W (v - m), or v if the metric is plain.
 void whiten(const rlvc_metric &metric, const float *v, float *out);
 
 // Throws Failure(RLVC_VISION_E_DESCRIPTOR) that says what differs, unless the metric was fitted to

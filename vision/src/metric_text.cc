@@ -23,7 +23,7 @@ constexpr int version = 1;
 constexpr size_t text_max = size_t{1} << 24;
 
 // In the order of RLVC_METRIC_*.
-constexpr const char *kinds[] = {"plain", "covariance", "change"};
+constexpr const char *kinds[] = {"plain", "covariance", "change", "discriminant"};
 
 [[noreturn]] void refuse(const std::string &text) {
     throw Failure(RLVC_VISION_E_FORMAT, text);
@@ -72,6 +72,7 @@ json json_of(const rlvc_vision_config &config) {
             {"radius", config.radius},
             {"form", config.form},
             {"normalise", config.normalise},
+            {"axes", config.axes},
             {"sd", config.sd},
             {"si", config.si},
             {"k", config.k},
@@ -96,6 +97,7 @@ rlvc_vision_config config_of(const json &object) {
     config.radius = whole(object, "radius");
     config.form = byte(object, "form");
     config.normalise = byte(object, "normalise");
+    config.axes = byte(object, "axes");
     constexpr float any = 1e6f; // check() knows better
     config.sd = real(object, "sd", any);
     config.si = real(object, "si", any);
@@ -116,6 +118,11 @@ uint32_t kind_of(const json &object) {
         if (name == kinds[kind])
             return kind;
     refuse("\"kind\" is " + name.dump().substr(0, 40) + ", which is none that is known");
+}
+
+void check_kind(const rlvc_vision_config &config, uint32_t kind) {
+    if (config.axes > 0 && kind != RLVC_METRIC_DISCRIMINANT)
+        refuse("\"axes\" is not 0, but the metric is not discriminant");
 }
 
 [[noreturn]] void refuse_file(const char *doing, const char *path) {
@@ -163,12 +170,13 @@ rlvc_metric metric_of(const char *text, size_t bytes) {
     rlvc_metric metric{};
     metric.config = config_of(object);
     metric.kind = kind_of(object);
+    check_kind(metric.config, metric.kind);
     metric.tau = real(member(object, "tau"), "tau", 1e-12f, metric_number_max);
     metric.step = real(member(object, "step"), "step", 1e-12f, metric_number_max);
     if (metric.kind != RLVC_METRIC_PLAIN) {
         const size_t n = rlvc_descriptor_dimensions(metric.config.descriptor);
         metric.mean = reals(object, "mean", n);
-        metric.matrix = reals(object, "matrix", n * n);
+        metric.matrix = reals(object, "matrix", rlvc_vision_dimensions(&metric.config) * n);
     }
     return metric;
 }

@@ -10,6 +10,7 @@ namespace rlvc {
 namespace {
 
 constexpr double least_eigenvalue = 1e-3;
+constexpr double ridge = 0.1; // of the mean diagonal number
 
 cv::Mat1d spread_of(const std::vector<float> &vectors, const std::vector<float> &centre, int n) {
     cv::Mat1d spread(n, n, 0.0);
@@ -66,6 +67,26 @@ std::vector<float> whitening_of(const std::vector<float> &vectors, const std::ve
             matrix.push_back(static_cast<float>(axes(i, j) / root / scale[static_cast<size_t>(j)]));
     }
     return matrix;
+}
+
+std::vector<float> discriminants_of(const std::vector<float> &changes,
+                                    const std::vector<float> &vectors,
+                                    const std::vector<float> &centre, size_t n, size_t kept) {
+    const auto size = static_cast<int>(n);
+    cv::Mat1d within = spread_of(changes, std::vector<float>(n, 0.0f), size);
+    const double mean = cv::trace(within)[0] / size;
+    within += (mean > 0 ? ridge * mean : 1) * cv::Mat1d::eye(size, size);
+    cv::Mat1d values, whitening, axes;
+    cv::eigen(within, values, whitening);
+    for (int i = 0; i < size; i++)
+        whitening.row(i) *= 1 / std::sqrt(values(i));
+    cv::Mat1d among;
+    cv::gemm(whitening * spread_of(vectors, centre, size), whitening, 1, cv::noArray(), 0, among,
+             cv::GEMM_2_T);
+    cv::eigen(among, values, axes);
+    cv::Mat1d all;
+    cv::gemm(axes, whitening, 1, cv::noArray(), 0, all);
+    return {all.begin(), all.begin() + static_cast<ptrdiff_t>(kept * n)};
 }
 
 } // namespace rlvc

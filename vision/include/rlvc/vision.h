@@ -97,14 +97,16 @@ typedef struct rlvc_vision_config {
                             deviation 64, which removes changes of light of the form a c + b, and
                             absolute colour with them; 0: not. SIFT and ORB take no notice of it but
                             in the choice of points. Default 0 */
-    uint8_t reserved[2]; /* 0 */
-    float sd;            /* pixels: scale of the derivatives of the Harris response, [0.5, 4].
+    uint8_t axes;     /* numbers of a vector in the percept: the first so many axes of a metric of
+                            the kind DISCRIMINANT, [1, D]; 0: all D. Default 0 */
+    uint8_t reserved; /* 0 */
+    float sd;         /* pixels: scale of the derivatives of the Harris response, [0.5, 4].
                             Default 1 */
-    float si;            /* pixels: scale over which it integrates, [0.5, 8]. Default 2 */
-    float k;             /* H = det M - k (trace M)^2, [0, 0.25). Default 0.04 */
-    float threshold;     /* a point's response exceeds this share of the picture's largest, [0, 1).
+    float si;         /* pixels: scale over which it integrates, [0.5, 8]. Default 2 */
+    float k;          /* H = det M - k (trace M)^2, [0, 0.25). Default 0.04 */
+    float threshold;  /* a point's response exceeds this share of the picture's largest, [0, 1).
                             Default 0.001 */
-    float sigma;         /* pixels: scale of the vectors, [0.5, 8], for SIFT [1, 8]: that of the
+    float sigma;      /* pixels: scale of the vectors, [0.5, 8], for SIFT [1, 8]: that of the
                             Gaussian derivatives, or SIFT's own (its window is 12 sigma wide); ORB's
                             window is fixed, and only its direction is taken at this scale. Default
                             2.5, SIFT 6, ORB 5 */
@@ -120,6 +122,10 @@ RLVC_API rlvc_vision_status rlvc_vision_config_default(uint32_t descriptor,
 RLVC_API rlvc_vision_status rlvc_vision_config_check(const rlvc_vision_config *config,
                                                      rlvc_vision_error *error);
 
+/* Numbers of a vector as it stands in a percept: config.axes, or D if that is 0; 0 if the
+ * descriptor or the axes are out of range. O(1). */
+RLVC_API uint32_t rlvc_vision_dimensions(const rlvc_vision_config *config);
+
 /* The name of a descriptor, as files have it: "invariants", "sqrt-invariants", "sift-upright",
  * "sift", "orb"; null for a value that is none. O(1). */
 RLVC_API const char *rlvc_descriptor_name(uint32_t descriptor);
@@ -133,8 +139,8 @@ RLVC_API uint32_t rlvc_descriptor_dimensions(uint32_t descriptor);
 
 /* ------------------------------------------------------------------------------------ percept */
 
-/* The record that the core keeps, in the machine's own byte order; its size is fixed by P, D and
- * the form, and is a multiple of 4:
+/* The record that the core keeps, in the machine's own byte order; its size is fixed by P, D (or
+ * config.axes in its place) and the form, and is a multiple of 4:
  *
  *     float form    uint32_t count; float  vector[P][D];
  *     int8 form     uint32_t count; int8_t vector[P][D]; zeros up to a multiple of 4
@@ -181,7 +187,7 @@ typedef struct rlvc_picture {
 /* What is known of the vectors of one descriptor: a mean m and a matrix W, so that W (v - m) is
  * what stands in a percept; tau, the radius within which two such vectors count as the same
  * feature; and the step of the int8 form. It also knows the config it was fitted with, and is
- * refused by an extractor whose descriptor, sigma or normalise differ. */
+ * refused by an extractor whose descriptor, sigma, normalise or axes differ. */
 typedef struct rlvc_metric rlvc_metric;
 
 /* How a metric was fitted. Values are pinned.
@@ -189,10 +195,14 @@ typedef struct rlvc_metric rlvc_metric;
  * - PLAIN: no whitening, tau and step alone. For SIFT and ORB.
  * - COVARIANCE: W^T W is the inverse covariance of all vectors (Mahalanobis's distance).
  * - CHANGE: ... of the change of a point's vector between two pictures of the same, so that what
- *   varies by itself weighs little. */
+ *   varies by itself weighs little.
+ * - DISCRIMINANT: likewise, and turned so that the first axes are those along which vectors differ
+ *   most (Fisher's linear discriminants). A few of them tell things apart better than all, and
+ *   faster: config.axes. */
 #define RLVC_METRIC_PLAIN 0u
 #define RLVC_METRIC_COVARIANCE 1u
 #define RLVC_METRIC_CHANGE 2u
+#define RLVC_METRIC_DISCRIMINANT 3u
 
 /* tau: a percept exhibits a feature if one of its vectors is at most this far from it, in units of
  * the float form; over rlvc_extractor_step it is in units of the percept. > 0. O(1). */
@@ -289,7 +299,7 @@ RLVC_API rlvc_vision_status rlvc_fitter_add(rlvc_fitter *fitter, const rlvc_pict
 #define RLVC_PAIR_VIEWS 1u
 
 /* Adds two pictures of the same: the changes from the points' vectors in `before` to those of their
- * partners in `after` count for RLVC_METRIC_CHANGE, and for nothing else.
+ * partners in `after` count for RLVC_METRIC_CHANGE and _DISCRIMINANT, and for nothing else.
  * @return RLVC_VISION_OK; RLVC_VISION_E_PICTURE; RLVC_VISION_E_RANGE (how, or as above). */
 RLVC_API rlvc_vision_status rlvc_fitter_pair(rlvc_fitter *fitter, const rlvc_picture *before,
                                              const rlvc_picture *after, uint32_t how,
@@ -301,7 +311,8 @@ RLVC_API rlvc_vision_status rlvc_fitter_pair(rlvc_fitter *fitter, const rlvc_pic
  * @param share tau is such that of the pictures of other objects this share exhibits a feature, on
  *              average over the features of all pictures (a fixed choice of them if they are many),
  *              (0, 1). 0.2 served well: a tree needs features that are stable more than rare ones.
- * @return RLVC_VISION_OK; RLVC_VISION_E_RANGE (kind, share); RLVC_VISION_E_FEW (fewer than two
+ * @return RLVC_VISION_OK; RLVC_VISION_E_RANGE (kind, share; another kind than DISCRIMINANT although
+ *         config.axes is not 0); RLVC_VISION_E_FEW (fewer than two
  *         objects, or no vector; or not more vectors or changes than dimensions, where they are
  *         needed). */
 RLVC_API rlvc_vision_status rlvc_fitter_fit(rlvc_fitter *fitter, uint32_t kind, float share,
