@@ -116,7 +116,7 @@ class Eye {
         check(rlvc_extractor_create(&config_, metric, &made, &error), error);
         extractor_.reset(made);
         check(rlvc_descriptors_default(
-                  &descriptors_, config_.points, rlvc_descriptor_dimensions(config_.descriptor),
+                  &descriptors_, config_.points, rlvc_vision_dimensions(&config_),
                   RLVC_DESCRIPTORS_INT8, rlvc_metric_tau(metric) / rlvc_extractor_step(made)),
               "");
         check(rlvc_descriptors_domain(&descriptors_, &domain_), "");

@@ -101,12 +101,25 @@ def test_report_and_tree(tmp_path):
     assert "object" in dot.read_text() and "digraph" in dot.read_text()
     assert made["kind"] == "run_gridworld tiled"
     assert all(one["points"] for one in made["objects"])
+    assert made["features"]["dimensions"] == 128  # nothing changes: there is nothing to discriminate
     once = made["runs"][0]
     assert len(once["tests"]) == once["classes"] - 1
     for test in once["tests"]:  # a feature is a point of some object
         points = made["objects"][test["object"]]["points"]
         assert [test["x"], test["y"]] in [point[:2] for point in points]
     assert {cell["object"] for cell in once["cell"]} == set(range(10))
+
+
+def test_axes_and_snapshot(tmp_path):
+    kept = tmp_path / "agent"
+    arguments = ("--maze", "small", "--noise", 3, "--interactions", 200)
+    made = report(tmp_path, *arguments, "--axes", 7, "--snapshot", kept)
+    features = made["features"]
+    assert (features["form"], features["dimensions"], features["candidates"]) == ("int8", 7, 64)
+    data = kept.read_bytes()
+    assert data[:4] == b"RLVS" and int.from_bytes(data[12:16], "little") == len(data)
+    assert int.from_bytes(data[16:20], "little") == 4 + (30 * 7 + 3) // 4 * 4
+    assert report(tmp_path, *arguments, "--axes", 0)["features"]["dimensions"] == 128
 
 
 def test_same_seed_same_run(tmp_path):

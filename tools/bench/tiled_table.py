@@ -16,27 +16,27 @@ import sys
 import tempfile
 
 ROWS = [
-    ("invariants, fixed tau", ["--descriptor", "invariants", "--margin", "1", "--share", "0.2"]),
-    ("sqrt-invariants, fixed tau", ["--descriptor", "sqrt-invariants", "--sigma", "3", "--margin",
-                                    "1", "--share", "0.2"]),
+    ("sift-upright, 16 axes, margin rule (default)", []),
+    ("sift-upright, 16 axes, fixed tau 5 %", ["--margin", "1", "--share", "0.05"]),
+    ("sift-upright, 32 axes, margin rule", ["--axes", "32"]),
+    ("sift, 16 axes, margin rule", ["--descriptor", "sift"]),
+    ("sift-upright as it is, margin rule", ["--axes", "0"]),
     ("sqrt-invariants, margin rule", ["--descriptor", "sqrt-invariants", "--sigma", "3"]),
+    ("invariants, fixed tau", ["--descriptor", "invariants", "--margin", "1", "--share", "0.2"]),
     ("orb, margin rule", ["--descriptor", "orb"]),
-    ("sift, margin rule", ["--descriptor", "sift"]),
-    ("sift-upright, fixed tau 5 %", ["--margin", "1", "--share", "0.05"]),
-    ("sift-upright, fixed tau 20 %", ["--margin", "1", "--share", "0.2"]),
-    ("sift-upright, margin rule, sigma 2.5", ["--sigma", "2.5"]),
-    ("sift-upright, margin rule (default)", []),
 ]
 TASKS = [["--poses", "0,20,-20", "--test-poses", "10,-10"],
          ["--poses", "0,10,-10,20,-20", "--test-poses", "30,-30"]]
 
 
 def learn(program, folder, runs, arguments):
-    with tempfile.NamedTemporaryFile(suffix=".json") as file:
+    with tempfile.TemporaryDirectory() as made:
+        report = os.path.join(made, "report.json")
         subprocess.run([program, "tiled", "--images", folder, "--noise", "3", "--light", "0.05",
-                        "--runs", str(runs), "--json", file.name, *arguments], check=True,
+                        "--runs", str(runs), "--json", report, *arguments], check=True,
                        stdout=subprocess.DEVNULL)
-        return json.load(file)
+        with open(report) as file:
+            return json.load(file)
 
 
 def cells(report):
@@ -49,7 +49,7 @@ def cells(report):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
-    parser.add_argument("--runs", type=int, default=20)
+    parser.add_argument("--runs", type=int, default=20, help="each with a seed of its own, from 1 on")
     options = parser.parse_args()
     folder = os.environ.get("RLVC_COIL100")
     if not folder:

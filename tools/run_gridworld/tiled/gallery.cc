@@ -30,17 +30,6 @@ bool is_invariants(uint32_t descriptor) {
            descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS;
 }
 
-rlvc_vision_config make_config(const TiledOptions &options) {
-    rlvc_vision_config config;
-    check_vision(rlvc_vision_config_default(options.descriptor, &config), {});
-    config.points = options.points;
-    config.sigma = options.sigma;
-    config.normalise = options.normalise;
-    // SIFT and ORB lose nothing as bytes.
-    config.form = is_invariants(options.descriptor) ? RLVC_FORM_FLOAT : RLVC_FORM_INT8;
-    return config;
-}
-
 // The published vectors are compared by Mahalanobis's distance; their square roots by what changes
 // from view to view, if there are views, or from copy to copy.
 uint32_t kind_of_metric(const TiledOptions &options) {
@@ -51,7 +40,22 @@ uint32_t kind_of_metric(const TiledOptions &options) {
     if (options.descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS) {
         return changes ? RLVC_METRIC_CHANGE : RLVC_METRIC_COVARIANCE;
     }
-    return RLVC_METRIC_PLAIN;
+    const bool sift = options.descriptor == RLVC_DESCRIPTOR_SIFT ||
+                      options.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
+    return sift && changes && options.axes > 0 ? RLVC_METRIC_DISCRIMINANT : RLVC_METRIC_PLAIN;
+}
+
+rlvc_vision_config make_config(const TiledOptions &options) {
+    rlvc_vision_config config;
+    check_vision(rlvc_vision_config_default(options.descriptor, &config), {});
+    config.points = options.points;
+    config.sigma = options.sigma;
+    config.normalise = options.normalise;
+    // SIFT and ORB lose nothing as bytes.
+    config.axes = static_cast<uint8_t>(
+        kind_of_metric(options) == RLVC_METRIC_DISCRIMINANT ? options.axes : 0);
+    config.form = is_invariants(options.descriptor) ? RLVC_FORM_FLOAT : RLVC_FORM_INT8;
+    return config;
 }
 
 using Fitter = std::unique_ptr<rlvc_fitter, void (*)(rlvc_fitter *)>;
@@ -112,10 +116,10 @@ void Gallery::prepare(const TiledOptions &options) {
     extractor_.reset(extractor);
     tau_ = rlvc_metric_tau(metric_.get());
     const float radius = tau_ / rlvc_extractor_step(extractor);
-    check(rlvc_descriptors_default(
-              &descriptors_, config_.points, rlvc_descriptor_dimensions(config_.descriptor),
-              config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT,
-              radius),
+    check(rlvc_descriptors_default(&descriptors_, config_.points, rlvc_vision_dimensions(&config_),
+                                   config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8
+                                                                  : RLVC_DESCRIPTORS_FLOAT,
+                                   radius),
           "rlvc_descriptors_default");
     descriptors_.margin = options.margin;
     descriptors_.candidates = options.candidates;

@@ -44,6 +44,10 @@ class Gallery {
         return held_out_[object];
     }
 
+    const rlvc_descriptors &descriptors() const {
+        return descriptors_;
+    }
+
     // The domain of these percepts: it points into the gallery.
     rlvc_domain domain();
 

@@ -30,12 +30,14 @@ class Run {
     void look_up_cells();
     void list_tests();
     std::string print(uint32_t format) const;
+    std::string save() const;
 
     const TiledOptions &options_;
     const gridworld_maze &maze_;
     const Optimum &optimum_;
     Gallery &gallery_;
     rlvc_domain domain_;
+    rlvc_config config_{};
     uint32_t classes_max_;
     std::unique_ptr<uint64_t[]> memory_;
     rlvc_agent *agent_ = nullptr;
@@ -55,24 +57,23 @@ Run::Run(const TiledOptions &options, const gridworld_maze &maze, const Optimum 
     : options_(options), maze_(maze), optimum_(optimum), gallery_(gallery),
       domain_(gallery.domain()), classes_max_(classes_for(options, maze)),
       explorer_(classes_max_, seed), random_(seed) {
-    rlvc_config config;
-    check(rlvc_config_default(&config, &domain_, GRIDWORLD_ACTIONS), "rlvc_config_default");
-    config.capacity = options.interactions;
-    config.classes = classes_max_;
-    config.seed = seed;
-    config.criterion = options.criterion;
-    config.continuing = options.criterion == RLVC_CRITERION_RETURNS;
-    config.discount = options.gamma;
-    config.epsilon = options.epsilon;
-    config.alpha = options.alpha;
+    check(rlvc_config_default(&config_, &domain_, GRIDWORLD_ACTIONS), "rlvc_config_default");
+    config_.capacity = options.interactions;
+    config_.classes = classes_max_;
+    config_.seed = seed;
+    config_.criterion = options.criterion;
+    config_.continuing = options.criterion == RLVC_CRITERION_RETURNS;
+    config_.discount = options.gamma;
+    config_.epsilon = options.epsilon;
+    config_.alpha = options.alpha;
     const char *why = nullptr;
-    if (rlvc_config_check(&config, &domain_, &why) != RLVC_OK) {
+    if (rlvc_config_check(&config_, &domain_, &why) != RLVC_OK) {
         throw Failure(std::string("impossible options: ") + why);
     }
     std::size_t bytes = 0;
-    check(rlvc_agent_size(&config, &domain_, &bytes), "rlvc_agent_size");
+    check(rlvc_agent_size(&config_, &domain_, &bytes), "rlvc_agent_size");
     memory_.reset(new uint64_t[bytes / sizeof(uint64_t) + 1]);
-    check(rlvc_agent_init(&config, &domain_, memory_.get(), bytes, &agent_), "rlvc_agent_init");
+    check(rlvc_agent_init(&config_, &domain_, memory_.get(), bytes, &agent_), "rlvc_agent_init");
     result_.seed = seed;
     result_.memory_bytes = bytes;
     place_objects();
@@ -226,6 +227,28 @@ std::string Run::print(uint32_t format) const {
     return all;
 }
 
+// In the first of two slots.
+std::string Run::save() const {
+    std::string slots;
+    rlvc_store store{};
+    store.ctx = &slots;
+    store.read = [](void *ctx, uint32_t offset, void *buffer, uint32_t bytes) {
+        static_cast<std::string *>(ctx)->copy(static_cast<char *>(buffer), bytes, offset);
+        return 0;
+    };
+    store.write = [](void *ctx, uint32_t offset, const void *buffer, uint32_t bytes) {
+        static_cast<std::string *>(ctx)->replace(offset, bytes, static_cast<const char *>(buffer),
+                                                 bytes);
+        return 0;
+    };
+    check(rlvc_snapshot_size(&config_, &domain_, &store.slot_bytes), "rlvc_snapshot_size");
+    slots.resize(std::size_t{2} * store.slot_bytes);
+    check(rlvc_save(agent_, &store), "rlvc_save");
+    rlvc_snapshot_info info;
+    check(rlvc_snapshot_peek(&store, &info), "rlvc_snapshot_peek");
+    return slots.substr(0, info.bytes);
+}
+
 TiledRun Run::result() {
     rlvc_statistics statistics;
     check(rlvc_stats(agent_, &statistics), "rlvc_stats");
@@ -237,6 +260,9 @@ TiledRun Run::result() {
     list_tests();
     result_.tree_json = print(RLVC_PRINT_JSON);
     result_.tree_dot = print(RLVC_PRINT_DOT);
+    if (!options_.snapshot.empty()) {
+        result_.snapshot = save();
+    }
     return result_;
 }
 

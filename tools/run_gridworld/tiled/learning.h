@@ -29,6 +29,7 @@ struct TiledRun {
     std::vector<std::vector<uint32_t>> classes_of_cell; // that its pictures to learn from fall into
     std::vector<Test> tests;
     std::string tree_json, tree_dot;
+    std::string snapshot; // of the agent, as core/SPEC.md says
 };
 
 using TiledListener = std::function<void(const std::string &)>;

@@ -12,8 +12,7 @@
 
 namespace {
 
-constexpr float sift_sigma =
-    4.0f; // a wide window: it tells objects apart better than it loses poses
+constexpr float sift_sigma = 6.0f; // a wide window: it loses poses less than it tells objects apart
 
 int angle_of(const std::string &text) {
     std::size_t end = 0;
@@ -81,6 +80,9 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
         ->check(CLI::Range(1u, RLVC_POINTS_MAX));
     app.add_option("--sigma", options.sigma, "scale of the vectors in pixels (by descriptor)")
         ->check(CLI::Range(0.5, 8.0));
+    app.add_option("--axes", options.axes,
+                   "discriminant axes of SIFT, where views or light differ; 0: SIFT as it is (16)")
+        ->check(CLI::Range(0, 128));
     app.add_option("--share", options.share,
                    "of the other objects' pictures that have a feature at tau (0.035)")
         ->check(CLI::Range(0.001, 0.999));
@@ -125,6 +127,8 @@ void add_learning(CLI::App &app, TiledOptions &options) {
         ->check(CLI::Range(1, 100000));
     app.add_option("--json", options.json, "write a report")->type_name("FILE");
     app.add_option("--dot", options.dot, "write the first run's tree for Graphviz")
+        ->type_name("FILE");
+    app.add_option("--snapshot", options.snapshot, "write the first run's agent")
         ->type_name("FILE");
 }
 

@@ -21,6 +21,7 @@ struct TiledOptions {
     // Seeing.
     uint32_t descriptor = 0; // RLVC_DESCRIPTOR_*
     uint32_t points = 30;
+    uint32_t axes = 16;   // of SIFT that a metric keeps; 0: SIFT as it is
     float sigma = 0.0f;   // 0: the descriptor's default
     float share = 0.035f; // of the other objects' pictures that exhibit a feature at tau
     float margin = 1.8f;
@@ -37,7 +38,7 @@ struct TiledOptions {
     uint32_t classes = 0; // 0: four a cell
     uint32_t seed = 1;
     uint32_t runs = 1;
-    std::string json, dot;
+    std::string json, dot, snapshot;
 };
 
 // Reads the command line, of which argv[0] is "tiled". Throws Failure. False: help was asked for and

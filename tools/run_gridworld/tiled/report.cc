@@ -60,6 +60,7 @@ Json describe_options(const TiledOptions &options) {
             {"copies", options.copies},
             {"descriptor", rlvc_descriptor_name(options.descriptor)},
             {"points", options.points},
+            {"axes", options.axes},
             {"sigma", shortest(options.sigma)},
             {"share", shortest(options.share)},
             {"margin", shortest(options.margin)},
@@ -130,6 +131,15 @@ Json describe_run(const gridworld_maze &maze, const TiledRun &run) {
             {"cell", describe_cells(maze, run)},
             {"tests", std::move(tests)},
             {"tree", Json::parse(run.tree_json)}};
+}
+
+Json describe_features(const rlvc_descriptors &of) {
+    return {{"form", of.form == RLVC_DESCRIPTORS_INT8 ? "int8" : "float"},
+            {"dimensions", of.dimensions},
+            {"radius", shortest(of.radius)},
+            {"margin", shortest(of.margin)},
+            {"draws", of.draws},
+            {"candidates", of.candidates}};
 }
 
 } // namespace
@@ -219,6 +229,7 @@ std::string make_tiled_report(const TiledOptions &options, const std::vector<std
               {"options", describe_options(options)},
               {"maze", rows},
               {"tau", gallery.tau()},
+              {"features", describe_features(gallery.descriptors())},
               {"milliseconds_a_picture", gallery.milliseconds()},
               {"optimal_seen", seen / count},
               {"optimal_heldout", held / count},

@@ -63,6 +63,7 @@ void learn_and_show(const TiledOptions &options) {
     const TiledMaze maze(options.maze);
     OutputFile json("--json", options.json);
     OutputFile dot("--dot", options.dot);
+    OutputFile snapshot("--snapshot", options.snapshot);
     const Optimum optimum(maze.get(), double{options.gamma}, 0.0);
     Screen screen;
     const auto show = [&](const std::string &line) {
@@ -85,6 +86,9 @@ void learn_and_show(const TiledOptions &options) {
     }
     if (!options.dot.empty()) {
         dot.write(make_dot(gallery, runs.front()));
+    }
+    if (!options.snapshot.empty()) {
+        snapshot.write(runs.front().snapshot);
     }
     if (!options.json.empty()) {
         json.write(make_tiled_report(options, maze.rows(), maze.get(), gallery, runs));
