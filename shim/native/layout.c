@@ -127,6 +127,7 @@ static const rlvc_shim_entry layout[] = {
     FIELD(rlvc_vision_config, radius),
     FIELD(rlvc_vision_config, form),
     FIELD(rlvc_vision_config, normalise),
+    FIELD(rlvc_vision_config, axes),
     FIELD(rlvc_vision_config, reserved),
     FIELD(rlvc_vision_config, sd),
     FIELD(rlvc_vision_config, si),

@@ -40,7 +40,7 @@ Picture: TypeAlias = "npt.NDArray[np.uint8]"
 DESCRIPTORS = ("invariants", "sqrt-invariants", "sift-upright", "sift", "orb")
 """What can stand in a point's vector."""
 
-METRICS = ("plain", "covariance", "change")
+METRICS = ("plain", "covariance", "change", "discriminant")
 """How a metric can be fitted."""
 
 _FORMS = ("float", "int8")
@@ -118,6 +118,9 @@ class VisionConfig:
         How a number of a vector stands in the percept.
     normalise : bool
         Whether each channel of a picture is first brought to mean 128 and standard deviation 64.
+    axes : int
+        Numbers of a vector in the percept: the first so many axes of a ``discriminant`` metric, at
+        most 255; 0: all numbers.
     sd, si : float
         In pixels: scale of the derivatives of the Harris response, [0.5, 4], and that over which it
         integrates, [0.5, 8].
@@ -139,6 +142,7 @@ class VisionConfig:
     radius: int = 3
     form: str = "float"
     normalise: bool = False
+    axes: int = 0
     sd: float = 1.0
     si: float = 2.0
     k: float = 0.04
@@ -161,12 +165,12 @@ class VisionConfig:
             DESCRIPTORS.index(self.descriptor), ctypes.byref(native)
         )
         native.form = _FORMS.index(self.form)
-        for name in ("points", "radius", "normalise", "sd", "si", "k", "threshold", "sigma"):
+        for name in ("points", "radius", "normalise", "axes", "sd", "si", "k", "threshold", "sigma"):
             value = getattr(self, name)
-            whole = name in ("points", "radius")
+            whole = {"points": 2**32, "radius": 2**32, "axes": 2**8}.get(name)
             if name == "sigma" and value is None:
                 continue
-            if whole and (not isinstance(value, int) or not 0 <= value < 2**32):
+            if whole and (not isinstance(value, int) or not 0 <= value < whole):
                 raise ConfigError(f"{name}: {value!r} is no whole number in range")
             try:
                 setattr(native, name, value)
@@ -256,13 +260,13 @@ class Metric(_Owned):
             What is to be seen in each. Pictures of one object are not asked whether they exhibit each
             other's features when tau is sought. None: something else in each.
         pairs : iterable of (ndarray, ndarray, {"copies", "views"})
-            Two pictures of the same, for the metric of ``change``: the second is the first in other
-            light, noise or the like (of one size), or a neighbouring view.
+            Two pictures of the same, for the metrics of ``change`` and ``discriminant``: the second is
+            the first in other light, noise or the like (of one size), or a neighbouring view.
         config : VisionConfig or str
             A str means the defaults for that descriptor.
-        kind : {"plain", "covariance", "change"} or None
-            tau alone; Mahalanobis's distance; or by what changes within the pairs. None: plain for SIFT
-            and ORB, else covariance.
+        kind : {"plain", "covariance", "change", "discriminant"} or None
+            tau alone; Mahalanobis's distance; by what changes within the pairs; or likewise, on the axes
+            along which vectors differ most. None: plain for SIFT and ORB, else covariance.
         share : float
             tau is such that of the other objects' pictures this share exhibits a feature, (0, 1).
         order : {"rgb", "bgr"}
@@ -461,7 +465,7 @@ class Extractor(_Owned):
             ctypes.byref(native),
             None if metric is None else metric._handle,
         )
-        self.dimensions = int(_library.rlvc_descriptor_dimensions(native.descriptor))
+        self.dimensions = int(_library.rlvc_vision_dimensions(ctypes.byref(native)))
         self.percept_bytes = int(_library.rlvc_vision_percept_bytes(ctypes.byref(native)))
         self.step = float(_library.rlvc_extractor_step(self._handle))
 

@@ -207,6 +207,23 @@ def test_a_metric_of_change():
     assert metric.tau > 0
 
 
+def test_discriminant_axes(tmp_path):
+    pairs = [(noise(i), noise(i), "copies") for i in range(3)]
+    metric = vision.Metric.fit(
+        [noise(i) for i in range(9)], pairs=pairs, kind="discriminant", axes=5
+    )
+    metric.save(tmp_path / "metric")
+    metric = vision.Metric.load(tmp_path / "metric")
+    assert (metric.kind, metric.config.axes) == ("discriminant", 5)
+    extractor = vision.Extractor(metric=metric)
+    sight = extractor.look(noise(1))
+    assert sight.vectors.shape == (len(sight.points), 5) and len(sight.points) > 0
+    with pytest.raises(errors.RangeError, match="axes"):
+        vision.Metric.fit([noise(1), noise(2)], kind="plain", axes=5)
+    with pytest.raises(errors.ConfigError, match="axes"):
+        vision.VisionConfig(axes=256)
+
+
 def test_an_agent_learns_what_is_seen(extractor):
     """Two kinds of pictures call for two actions; the feature is one of theirs."""
     agent = rlvc.Agent(extractor.domain(), 2)
