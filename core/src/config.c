@@ -16,7 +16,8 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
         .untried = RLVC_UNTRIED_EXCLUDED,
         .discount = 0.9f,
         .epsilon = 0.9f,
-        .alpha = 0.005f,
+        .alpha = 0.0001f,
+        .alpha_known = 0.1f,
         .tolerance = 0.01f,
         .learning_rate = 0.1f,
     };
@@ -26,6 +27,8 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
     config->actions = actions;
     if (domain->features_max > 0 && domain->features_max < RLVC_DETECT_FEATURES)
         config->features_at_once = domain->features_max;
+    config->successors = domain->kind == RLVC_DOMAIN_BITS && !domain->oracle &&
+                         domain->features_max <= config->features_at_once;
     return RLVC_OK;
 }
 
@@ -78,7 +81,9 @@ static const char *wrong_in_choices(const rlvc_config *config) {
         return "untried must be one of RLVC_UNTRIED_*";
     if (config->continuing > 1)
         return "continuing must be 0 or 1";
-    if (config->reserved[0] || config->reserved[1] || config->reserved[2])
+    if (config->successors > 1)
+        return "successors must be 0 or 1";
+    if (config->reserved[0] || config->reserved[1])
         return "reserved must be 0";
     return NULL;
 }
@@ -90,12 +95,21 @@ static const char *wrong_in_numbers(const rlvc_config *config) {
         return "epsilon must be within [0, 1]";
     if (!above(config->alpha, 0.0f, 1.0f))
         return "alpha must be within (0, 1]";
+    if (!above(config->alpha_known, 0.0f, 1.0f))
+        return "alpha_known must be within (0, 1]";
     if (!above(config->tolerance, 0.0f, RLVC_REWARD_MAX))
         return "tolerance must be within (0, 1e12]";
     if (!above(config->learning_rate, 0.0f, 1.0f))
         return "learning_rate must be within (0, 1]";
     if (!within(config->optimistic_value, -RLVC_REWARD_MAX, RLVC_REWARD_MAX))
         return "optimistic_value must be within [-1e12, 1e12]";
+    return NULL;
+}
+
+static const char *wrong_together(const rlvc_config *config, const rlvc_domain *domain) {
+    if (config->successors && (domain->features_max < 1 || domain->oracle ||
+                               domain->features_max > config->features_at_once))
+        return "successors needs a domain with features_max within [1, features_at_once] and no oracle";
     return NULL;
 }
 
@@ -110,6 +124,8 @@ rlvc_status rlvc_config_check(const rlvc_config *config, const rlvc_domain *doma
         wrong = wrong_in_choices(config);
     if (!wrong)
         wrong = wrong_in_numbers(config);
+    if (!wrong)
+        wrong = wrong_together(config, domain);
     if (why)
         *why = wrong ? wrong : "ok";
     return wrong ? RLVC_E_CONFIG : RLVC_OK;

@@ -4,9 +4,12 @@
  * A step is a row of rounds. Each gives every percept its class (LABEL), finds the target of every sample
  * (GROUP) and examines each class once (SEARCH): the best split over its actions is carried out at the end
  * of the class, and the next round examines both children. When a round splits nothing, no class is
- * aliased any more and the step ends (FINISH): the policy is made greedy, k incremented.
+ * aliased any more and the step ends (FINISH): the policy is made greedy, k incremented. Only a class whose
+ * targets tell nothing apart may be aliased by what follows (SUCCESSION): looked for when a round split
+ * nothing; what is found makes another round.
  *
  *     residual:  LABEL  MODEL SOLVE  GROUP SEARCH    each round; the targets need the values of its classes
+ *                SUCCESSION                          if that split nothing, and config.successors
  *     returns:   LABEL  GROUP SEARCH                 each round; the targets are facts
  *                MODEL SOLVE                         once, after the last
  *
@@ -61,7 +64,7 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
         learner->rounds++;
     } else if (phase == RLVC_PHASE_GROUP) {
         rlvc_grouping_begin(&learner->work.grouping, pairs(agent));
-    } else if (phase == RLVC_PHASE_SEARCH) {
+    } else if (rlvc_phase_splits(phase)) {
         learner->made = 0;
     } else if (phase == RLVC_PHASE_MODEL) {
         rlvc_model_begin(&learner->work.model, pairs(agent));
@@ -118,27 +121,24 @@ static rlvc_status step_label(rlvc_agent *agent) {
 
 /* ------------------------------------------------------------------ SEARCH */
 
-/* What it is charged to decide upon a split: some logarithms. */
+/* What it is charged to decide upon a split: some logarithms, or this many features compared. */
 #define DECIDE_UNITS 32u
 
-/* Takes the result of the search in class `at`, and carries the split out if it is significant. Returns
- * the units used. */
-static uint32_t decide(rlvc_agent *agent) {
+/* What was found in class `at`: the feature, or null. */
+static const void *found(const rlvc_agent *agent, rlvc_split *split) {
+    const rlvc_learner *learner = &agent->learner;
+    return learner->phase == RLVC_PHASE_SEARCH
+               ? rlvc_search_result(&learner->work.search, &agent->space, split)
+               : rlvc_succession_result(&learner->work.succession, &agent->space, split);
+}
+
+/* Carries a split of class `at` out. */
+static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_split split;
-    const void *feature = rlvc_search_result(&learner->work.search, &agent->space, &split);
-    if (!feature)
-        return 1;
-    if (!(split.log_p < rlvc_ln(agent->config.alpha)))
-        return DECIDE_UNITS;
-    if (agent->tree.classes == agent->tree.classes_max) {
-        agent->refused++;
-        return DECIDE_UNITS;
-    }
     uint32_t made = agent->tree.classes;
-    split.class_id = learner->at;
-    split.step = agent->step;
-    rlvc_tree_grow(&agent->tree, &split, feature);
+    split->class_id = learner->at;
+    split->step = agent->step;
+    rlvc_tree_grow(&agent->tree, split, feature);
     rlvc_values_inherit(&agent->values, made, learner->at);
     if (!rlvc_is_incremental(&agent->config)) { /* the next solution tells the two apart */
         rlvc_values_forget(&agent->values, made);
@@ -149,40 +149,88 @@ static uint32_t decide(rlvc_agent *agent) {
     agent->last_split = agent->step;
     learner->made++;
     learner->splits++;
-    return DECIDE_UNITS;
+}
+
+/* Compares some more of the tree's features with one.
+ * @return 1 if it is among them; 0 if not, and then `node` is the tree's last split or there are more. */
+static int recognise(rlvc_agent *agent, const void *feature) {
+    const rlvc_tree *tree = &agent->tree;
+    rlvc_learner *learner = &agent->learner;
+    for (uint32_t i = 0; i < DECIDE_UNITS && learner->node + 1u < tree->classes; i++) {
+        if (memcmp(rlvc_tree_feature(tree, learner->node), feature, tree->feature_bytes) == 0)
+            return 1;
+        learner->node++;
+    }
+    return 0;
+}
+
+static uint32_t close_class(rlvc_agent *agent, uint32_t used) {
+    agent->learner.searching = 0;
+    agent->learner.node = 0;
+    agent->learner.at++;
+    return used;
+}
+
+/* Takes the result of the search in class `at`, and carries the split out if it is significant. Returns
+ * the units used. */
+static uint32_t decide(rlvc_agent *agent) {
+    rlvc_split split;
+    const void *feature = found(agent, &split);
+    if (!feature)
+        return close_class(agent, 1);
+    if (!(split.log_p < rlvc_ln(agent->config.alpha))) {
+        if (!(split.log_p < rlvc_ln(agent->config.alpha_known)))
+            return close_class(agent, DECIDE_UNITS);
+        if (!recognise(agent, feature))
+            return agent->learner.node + 1u < agent->tree.classes
+                       ? DECIDE_UNITS
+                       : close_class(agent, DECIDE_UNITS);
+    }
+    if (agent->tree.classes == agent->tree.classes_max)
+        agent->refused++;
+    else
+        grow(agent, &split, feature);
+    return close_class(agent, DECIDE_UNITS);
 }
 
 static void end_round(rlvc_agent *agent) {
+    const rlvc_config *config = &agent->config;
     if (agent->learner.made > 0)
         enter(agent, RLVC_PHASE_LABEL);
-    else if (agent->config.criterion == RLVC_CRITERION_RETURNS &&
-             !rlvc_is_incremental(&agent->config))
-        enter(agent, RLVC_PHASE_MODEL);
+    else if (config->criterion == RLVC_CRITERION_RETURNS)
+        enter(agent, rlvc_is_incremental(config) ? RLVC_PHASE_FINISH : RLVC_PHASE_MODEL);
     else
-        enter(agent, RLVC_PHASE_FINISH);
+        enter(agent, config->successors && agent->learner.phase == RLVC_PHASE_SEARCH
+                         ? RLVC_PHASE_SUCCESSION
+                         : RLVC_PHASE_FINISH);
 }
 
+/* Works on class `at`: what is sought is up to the phase. */
 static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_search *search = &learner->work.search;
     rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
     rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    int succession = learner->phase == RLVC_PHASE_SUCCESSION;
     *used = 1;
     if (!learner->searching && learner->at == learner->classes) {
         end_round(agent);
         return RLVC_OK;
     }
     if (!learner->searching) {
+        const uint32_t *first =
+            agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0);
         agent->pending[learner->at] = 0;
-        rlvc_search_begin(search, &searching,
-                          agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0));
+        if (succession)
+            rlvc_succession_begin(&learner->work.succession, &searching, first);
+        else
+            rlvc_search_begin(&learner->work.search, &searching, first);
         learner->searching = 1;
     }
-    if (!search->done)
-        return rlvc_search_step(search, &searching, budget, used);
+    if (succession && !learner->work.succession.done)
+        return rlvc_succession_step(&learner->work.succession, &searching, budget, used);
+    if (!succession && !learner->work.search.done)
+        return rlvc_search_step(&learner->work.search, &searching, budget, used);
     *used = decide(agent);
-    learner->searching = 0;
-    learner->at++;
     return RLVC_OK;
 }
 
@@ -267,6 +315,7 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
         *used = step_group(agent, budget);
         break;
     case RLVC_PHASE_SEARCH:
+    case RLVC_PHASE_SUCCESSION:
         status = step_search(agent, budget, used);
         break;
     case RLVC_PHASE_MODEL:
@@ -285,7 +334,7 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
 /* The units that the phase needs to get on: some have steps that are not divided further. */
 static uint32_t needed(const rlvc_agent *agent) {
     uint8_t phase = agent->learner.phase;
-    return phase == RLVC_PHASE_MODEL || phase == RLVC_PHASE_SEARCH ? RLVC_BUDGET_MIN : SOLVE_UNITS;
+    return phase == RLVC_PHASE_MODEL || rlvc_phase_splits(phase) ? RLVC_BUDGET_MIN : SOLVE_UNITS;
 }
 
 rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {

@@ -14,8 +14,14 @@ enum {
     RLVC_PHASE_SOLVE,
     RLVC_PHASE_GROUP,
     RLVC_PHASE_SEARCH,
+    RLVC_PHASE_SUCCESSION,
     RLVC_PHASE_FINISH
 };
+
+/* A phase that looks for splits, class by class? */
+static inline int rlvc_phase_splits(uint8_t phase) {
+    return phase == RLVC_PHASE_SEARCH || phase == RLVC_PHASE_SUCCESSION;
+}
 
 /* Keys of the step's samples. @param kind RLVC_CRITERION_* or RLVC_KEY_SUCCESSOR */
 rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind);

@@ -18,6 +18,8 @@ void rlvc_resume_mark(const rlvc_agent *agent, rlvc_mark *mark) {
         rlvc_solver_mark(&learner->work.solver, mark->word);
     else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching)
         rlvc_search_mark(&learner->work.search, mark->word);
+    else if (learner->phase == RLVC_PHASE_SUCCESSION && learner->searching)
+        rlvc_succession_mark(&learner->work.succession, mark->word);
 }
 
 /* ------------------------------------------------------------------ checks */
@@ -31,6 +33,7 @@ static uint32_t last_at(const rlvc_agent *agent) {
     case RLVC_PHASE_FINISH:
         return agent->tree.classes;
     case RLVC_PHASE_SEARCH:
+    case RLVC_PHASE_SUCCESSION:
         return agent->learner.classes;
     default:
         return 0;
@@ -46,6 +49,8 @@ static int phase_is_possible(const rlvc_agent *agent) {
     case RLVC_PHASE_MODEL:
     case RLVC_PHASE_SOLVE:
         return !incremental;
+    case RLVC_PHASE_SUCCESSION:
+        return agent->config.successors && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
     default:
         return agent->learner.phase <= RLVC_PHASE_FINISH;
     }
@@ -90,7 +95,7 @@ int rlvc_resume_check(const rlvc_agent *agent) {
         return 0;
     if (learner->phase == RLVC_PHASE_IDLE)
         return agent->replay.frozen == 0;
-    int searching = learner->phase == RLVC_PHASE_SEARCH;
+    int searching = rlvc_phase_splits(learner->phase);
     if (learner->at > last_at(agent) || learner->node > 2u * (agent->tree.classes - 1u))
         return 0;
     if (learner->made > agent->tree.classes || learner->splits >= agent->tree.classes)
@@ -108,6 +113,8 @@ static int is_done(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
     if (learner->phase == RLVC_PHASE_GROUP)
         return learner->work.grouping.done;
+    if (learner->phase == RLVC_PHASE_SUCCESSION)
+        return learner->work.succession.done;
     return learner->phase == RLVC_PHASE_MODEL ? learner->work.model.done
                                               : learner->work.search.done;
 }
@@ -119,6 +126,8 @@ static rlvc_status single(rlvc_agent *agent) {
     rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
     if (learner->phase == RLVC_PHASE_SEARCH)
         return rlvc_search_single(&learner->work.search, &searching);
+    if (learner->phase == RLVC_PHASE_SUCCESSION)
+        return rlvc_succession_single(&learner->work.succession, &searching);
     if (learner->phase == RLVC_PHASE_GROUP)
         (void)rlvc_grouping_step(&learner->work.grouping, &criterion, agent->space.sample,
                                  agent->values.first, 1);
@@ -165,8 +174,11 @@ static rlvc_status redo_search(rlvc_agent *agent, const rlvc_mark *mark) {
     (void)redo(agent, RLVC_PHASE_GROUP, NULL);
     if (!learner->searching)
         return RLVC_OK;
-    rlvc_search_begin(&learner->work.search, &searching,
-                      agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0));
+    const uint32_t *first = agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0);
+    if (learner->phase == RLVC_PHASE_SUCCESSION)
+        rlvc_succession_begin(&learner->work.succession, &searching, first);
+    else
+        rlvc_search_begin(&learner->work.search, &searching, first);
     return advance_to(agent, mark);
 }
 
@@ -185,11 +197,11 @@ rlvc_status rlvc_resume(rlvc_agent *agent, const rlvc_mark *mark) {
     rlvc_learner *learner = &agent->learner;
     if (learner->phase == RLVC_PHASE_SOLVE)
         return redo_solve(agent, mark);
-    if (learner->phase == RLVC_PHASE_SEARCH && learner->searching)
+    if (rlvc_phase_splits(learner->phase) && learner->searching)
         return redo_search(agent, mark);
     if (learner->phase == RLVC_PHASE_GROUP || learner->phase == RLVC_PHASE_MODEL)
         return redo(agent, learner->phase, mark);
     if (memcmp(mark, &none, sizeof none) != 0)
         return RLVC_E_DAMAGED;
-    return learner->phase == RLVC_PHASE_SEARCH ? redo_search(agent, mark) : RLVC_OK;
+    return rlvc_phase_splits(learner->phase) ? redo_search(agent, mark) : RLVC_OK;
 }

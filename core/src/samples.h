@@ -18,7 +18,7 @@ typedef struct rlvc_grouping {
 
 void rlvc_grouping_begin(rlvc_grouping *grouping, uint32_t pairs);
 
-/* @param sample [capacity]
+/* @param sample [capacity + 1]
  * @param first  [pairs + 1]
  * @return the work, at most budget (>= 1): a unit for each pair three times over, and two for each
  *         interaction (for returns twice rlvc_window_step). */

@@ -24,10 +24,12 @@ static void pass_config(rlvc_stream *s, rlvc_config *config) {
     rlvc_stream_u8(s, &config->solver);
     rlvc_stream_u8(s, &config->untried);
     rlvc_stream_u8(s, &config->continuing);
+    rlvc_stream_u8(s, &config->successors);
     rlvc_stream_bytes(s, config->reserved, sizeof config->reserved);
     rlvc_stream_float(s, &config->discount);
     rlvc_stream_float(s, &config->epsilon);
     rlvc_stream_float(s, &config->alpha);
+    rlvc_stream_float(s, &config->alpha_known);
     rlvc_stream_float(s, &config->tolerance);
     rlvc_stream_float(s, &config->learning_rate);
     rlvc_stream_float(s, &config->optimistic_value);
@@ -92,7 +94,7 @@ static int is_number(float x) {
 
 static int split_is_sound(const rlvc_agent *agent, const rlvc_split *about, uint32_t j) {
     return about->class_id <= j && about->step <= agent->step &&
-           about->action <= agent->config.actions && is_number(about->log_tests) &&
+           about->action <= agent->config.actions + 1u && is_number(about->log_tests) &&
            is_number(about->score) && is_number(about->log_p);
 }
 
@@ -278,8 +280,10 @@ static int same_config(const rlvc_config *a, const rlvc_config *b) {
            a->features_at_once == b->features_at_once && a->min_samples == b->min_samples &&
            a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
            a->score == b->score && a->solver == b->solver && a->untried == b->untried &&
-           a->continuing == b->continuing && same_float(a->discount, b->discount) &&
+           a->continuing == b->continuing && a->successors == b->successors &&
+           same_float(a->discount, b->discount) &&
            same_float(a->epsilon, b->epsilon) && same_float(a->alpha, b->alpha) &&
+           same_float(a->alpha_known, b->alpha_known) &&
            same_float(a->tolerance, b->tolerance) &&
            same_float(a->learning_rate, b->learning_rate) &&
            same_float(a->optimistic_value, b->optimistic_value);

@@ -17,11 +17,13 @@ enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, TEST_ALONE, TEST_T
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
-    uint64_t words = ((uint64_t)config->capacity + 63u * (uint64_t)config->actions) / 64u;
+    /* All slots hold an interaction when the newest terminated. */
+    uint64_t slots = (uint64_t)config->capacity + 1u;
+    uint64_t words = (slots + 63u * (uint64_t)config->actions) / 64u;
     uint64_t columns = (words | 1u) * config->features_at_once * sizeof *space->columns;
     if (columns < RLVC_SORT_SCRATCH_BYTES)
         columns = RLVC_SORT_SCRATCH_BYTES;
-    space->sample = rlvc_arena_carve(arena, config->capacity, sizeof *space->sample);
+    space->sample = rlvc_arena_carve(arena, slots, sizeof *space->sample);
     space->cuts = rlvc_arena_carve(arena, words, sizeof *space->cuts);
     space->columns = rlvc_arena_carve(arena, 1, columns);
     space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
@@ -38,16 +40,6 @@ static void enter(rlvc_search *search, uint8_t phase) {
     search->phase = phase;
     search->at = 0;
     search->done = phase == DONE;
-}
-
-/* Column j of the block. An odd number of words apart, so that the words of one place in all columns do
- * not fall on the same lines of a cache. */
-static uint64_t *column(const rlvc_search *search, const rlvc_workspace *space, uint32_t j) {
-    return space->columns + (size_t)(search->words | 1u) * j;
-}
-
-static const void *feature(const rlvc_workspace *space, uint32_t j) {
-    return space->features + (size_t)j * space->feature_bytes;
 }
 
 static uint32_t size_of(const rlvc_group *group) {
@@ -69,6 +61,19 @@ static void open_sort(rlvc_search *search, const rlvc_workspace *space) {
     enter(search, SORT);
 }
 
+uint32_t rlvc_workspace_group(const rlvc_workspace *space, const uint32_t *first) {
+    uint32_t words = 0;
+    for (uint32_t a = 0; a < space->actions; a++) {
+        rlvc_group *group = &space->group[a];
+        group->begin = first[a] - first[0];
+        group->end = first[a + 1u] - first[0];
+        group->cuts = 0;
+        group->word = words;
+        words += (size_of(group) + 63u) / 64u;
+    }
+    return words;
+}
+
 void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first) {
     const rlvc_workspace *space = searching->space;
     memset(search, 0, sizeof *search);
@@ -76,14 +81,7 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, con
     search->view.percept_bytes = searching->replay->percept_bytes;
     search->view.sample = space->sample + first[0];
     search->view.count = first[space->actions] - first[0];
-    for (uint32_t a = 0; a < space->actions; a++) {
-        rlvc_group *group = &space->group[a];
-        group->begin = first[a] - first[0];
-        group->end = first[a + 1u] - first[0];
-        group->cuts = 0;
-        group->word = search->words;
-        search->words += (size_of(group) + 63u) / 64u;
-    }
+    search->words = rlvc_workspace_group(space, first);
     if (search->view.count < searching->min_samples)
         enter(search, DONE);
     else
@@ -180,7 +178,7 @@ static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searc
                        searching->space->features, search->block, bits) != 0)
         return RLVC_E_CALLBACK;
     for (uint32_t j = 0; j < search->block; j++)
-        column(search, searching->space, j)[group->word + search->at / 64u] = bits[j];
+        rlvc_workspace_column(searching->space, search->words, j)[group->word + search->at / 64u] = bits[j];
     search->at += n;
     *used = n;
     return RLVC_OK;
@@ -194,9 +192,9 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *search
     uint64_t bit = (uint64_t)1 << search->at % 64u;
     for (uint32_t j = 0; j < search->block; j++) {
         uint8_t present = 0;
-        if (domain->exhibits(domain->ctx, percept, feature(searching->space, j), &present) != 0)
+        if (domain->exhibits(domain->ctx, percept, rlvc_workspace_feature(searching->space, j), &present) != 0)
             return RLVC_E_CALLBACK;
-        uint64_t *word = &column(search, searching->space, j)[group->word + search->at / 64u];
+        uint64_t *word = &rlvc_workspace_column(searching->space, search->words, j)[group->word + search->at / 64u];
         *word = (search->at % 64u == 0 ? 0 : *word & ~bit) | (present ? bit : 0);
     }
     search->at++;
@@ -209,7 +207,7 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *search
 static void open_column(rlvc_search *search, const rlvc_searching *searching,
                         const rlvc_group *group) {
     const rlvc_workspace *space = searching->space;
-    rlvc_scan_begin(&search->inner.scan, column(search, space, search->column) + group->word,
+    rlvc_scan_begin(&search->inner.scan, rlvc_workspace_column(space, search->words, search->column) + group->word,
                     space->cuts + group->word, size_of(group), searching->score,
                     search->groups == 1 ? search->alone.score : 0.0f);
 }
@@ -245,7 +243,7 @@ static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
     if (found->evidence > best->evidence ||
         (found->evidence == best->evidence && found->action < best->action)) {
         search->alone = *found;
-        memcpy(space->alone, feature(space, j), space->feature_bytes);
+        memcpy(space->alone, rlvc_workspace_feature(space, j), space->feature_bytes);
     }
 }
 
@@ -279,7 +277,7 @@ static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
     search->features += pool->degrees > 0;
     if (pool->evidence > search->together.evidence) {
         search->together = *pool;
-        memcpy(space->together, feature(space, search->column), space->feature_bytes);
+        memcpy(space->together, rlvc_workspace_feature(space, search->column), space->feature_bytes);
     }
     if (++search->column < search->block)
         return;

@@ -57,7 +57,7 @@ typedef struct rlvc_single {
 
 /* The memory of a search. */
 typedef struct rlvc_workspace {
-    rlvc_sample *sample;     /* [capacity]: all samples, grouped; or the model's transitions */
+    rlvc_sample *sample;     /* [capacity + 1]: all samples, grouped; or the model's transitions */
     uint64_t *cuts;          /* [words] */
     uint64_t *columns;       /* [features_at_once][words | 1], and scratch for sorting */
     unsigned char *features; /* [features_at_once] the block of candidates */
@@ -69,6 +69,21 @@ typedef struct rlvc_workspace {
     uint32_t features_at_once;
     uint32_t actions;
 } rlvc_workspace;
+
+/* Column j of the block, when all groups together have `words` words. An odd number of words apart, so that
+ * the words of one place in all columns do not fall on the same lines of a cache. O(1). */
+static inline uint64_t *rlvc_workspace_column(const rlvc_workspace *space, uint32_t words, uint32_t j) {
+    return space->columns + (size_t)(words | 1u) * j;
+}
+
+/* Feature j of the block. O(1). */
+static inline void *rlvc_workspace_feature(const rlvc_workspace *space, uint32_t j) {
+    return space->features + (size_t)j * space->feature_bytes;
+}
+
+/* Lays out the groups of the class whose samples after action a are [first[a], first[a + 1]) of all.
+ * @return the words of a column. O(actions). */
+uint32_t rlvc_workspace_group(const rlvc_workspace *space, const uint32_t *first);
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes);

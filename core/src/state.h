@@ -7,6 +7,7 @@
 #include "rng.h"
 #include "solver.h"
 #include "split.h"
+#include "succession.h"
 #include "tree.h"
 
 /* A learning step under way: see learn.c. */
@@ -14,12 +15,14 @@ typedef struct rlvc_learner {
     union {
         rlvc_grouping grouping;
         rlvc_search search;
+        rlvc_succession succession;
         rlvc_model model;
         rlvc_solver solver;
     } work;              /* of the phase */
     uint32_t end;        /* N: interactions at positions [0, end) are the database */
     uint32_t at;         /* position, pair or class, by phase */
-    uint32_t node;       /* where the walk of the percept at position `at` is */
+    uint32_t node;       /* where the walk of the percept at position `at` is; or how many of the tree's
+                            features the class's new one was compared with */
     uint32_t classes;    /* when this phase began */
     uint32_t rounds;     /* begun in this step */
     uint32_t splits;     /* made in this step */

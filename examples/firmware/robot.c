@@ -30,6 +30,8 @@ int robot_init(struct robot *robot) {
     config.discount = DISCOUNT;
     config.epsilon = EPSILON;
     config.alpha = ALPHA;
+    config.alpha_known = ALPHA_KNOWN;
+    config.successors = SUCCESSORS;
     static const struct robot made;
     *robot = made;
     gridworld_explorer_init(&robot->explorer, tried, CLASSES, SEED);

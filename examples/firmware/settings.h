@@ -10,7 +10,7 @@
 #define DISTRACTORS 11u /* bits of a percept that say nothing */
 #define PERCEPT_BITS 18u
 #define PERCEPT_BYTES RLVC_BITS_PERCEPT_BYTES(PERCEPT_BITS)
-#define FEATURES_AT_ONCE 8u /* a little time for a little memory */
+#define FEATURES_AT_ONCE PERCEPT_BITS
 #define SEED 1u
 #define DISCOUNT 0.9f
 
@@ -23,15 +23,19 @@
 #define CLASSES 64u
 #define EPSILON 0.8f
 #define ALPHA 0.0001f
+#define ALPHA_KNOWN ALPHA
+#define SUCCESSORS 0
 #else /* within 32 KiB of memory in all, stack included */
 #define CRITERION RLVC_CRITERION_RESIDUAL
 #define CRITERION_NAME "residual"
-#define STEPS 100u
+#define STEPS 25u
 #define STEP_INTERACTIONS 100u
-#define CAPACITY 980u
+#define CAPACITY 920u
 #define CLASSES 52u
 #define EPSILON 0.9f
-#define ALPHA 0.003f
+#define ALPHA 0.0001f
+#define ALPHA_KNOWN 0.1f
+#define SUCCESSORS 1
 #endif
 
 /* The work that a tick lends to the learner, in the library's units. */

@@ -138,9 +138,9 @@ def pictures(folder):
     def look(run):
         stages[run.history[-1].interactions] = report.make(run, env)
 
-    run = rlvc.learn(env, 6000, every=100, seed=1, discount=0.9, alpha=0.003, callback=look)
+    run = rlvc.learn(env, 6000, every=100, seed=1, discount=0.9, callback=look)
     final = report.make(run, env)
-    small = rlvc.learn(env, 3000, seed=1, discount=0.9, alpha=0.003, classes=4)
+    small = rlvc.learn(env, 3000, seed=1, discount=0.9, classes=4)
     for kind in ("maze", "values", "curve", "splits", "tree"):
         plot.KINDS[kind](final, folder / f"{kind}.svg")
     plot.maze(next(iter(stages.values())), folder / "step1.svg")

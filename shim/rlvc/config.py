@@ -59,12 +59,19 @@ class Config:
         counts, or ``optimistic_value``.
     continuing : bool
         Whether the window of definition 1 runs on through a terminated interaction.
+    successors : bool or None
+        Whether a class is aliased, too, if what follows the same action differs, even while all
+        rewards are alike (residual criterion; the candidates must fit into ``features_at_once``).
+        None: for up to 64 bits yes, else no.
     discount : float
         gamma of equation (1), [0, 1].
     epsilon : float
         Probability that ``act`` explores at random, [0, 1].
     alpha : float
-        A split is kept if its corrected p-value is below this, (0, 1].
+        A split by a feature that is new to the tree is kept if its corrected p-value is below this,
+        (0, 1].
+    alpha_known : float
+        The same for a feature that the tree tests already, (0, 1]; below ``alpha`` without effect.
     tolerance : float
         Of a batch solver's values, in units of reward, (0, 1e12].
     learning_rate : float
@@ -90,9 +97,11 @@ class Config:
     solver: Solver = "value_iteration"
     untried: Untried = "excluded"
     continuing: bool = False
+    successors: bool | None = None
     discount: float = 0.9
     epsilon: float = 0.9
-    alpha: float = 0.005
+    alpha: float = 0.0001
+    alpha_known: float = 0.1
     tolerance: float = 0.01
     learning_rate: float = 0.1
     optimistic_value: float = 0.0

@@ -201,6 +201,8 @@ class Encoder:
         Of a percept.
     names : list of str
         What each bit says.
+    real : bool
+        Whether some of them are thresholds of real numbers.
 
     Raises
     ------
@@ -211,6 +213,7 @@ class Encoder:
     def __init__(self, space: Any, samples: Sequence[Any] = (), thresholds: int = 15) -> None:
         if needs_samples(space) and len(samples) == 0:
             raise SpaceError("a Box gets its thresholds from observations: give some as samples")
+        self.real = needs_samples(space)
         self._parts = _parts(space, (), list(samples), thresholds)
         self.names = [name for part in self._parts for name in part.names]
         if not self.names:

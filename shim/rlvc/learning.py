@@ -386,7 +386,9 @@ def domain_of(encoder: Any) -> Domain:
     return domain if isinstance(domain, Domain) else Bits(encoder.bits)
 
 
-def default_config(actions: int, interactions: int, seed: int, changes: dict[str, Any]) -> Config:
+def default_config(
+    actions: int, interactions: int, seed: int, changes: dict[str, Any], real: bool
+) -> Config:
     """Give the config of :func:`learn`: that of an agent, with room for all interactions.
 
     Parameters
@@ -394,6 +396,9 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
     actions, interactions, seed : int
     changes : dict
         Fields that the caller chose.
+    real : bool
+        Whether percepts hold thresholds of real numbers: what these foretell of each other never ends,
+        so that ``successors`` is off.
 
     Returns
     -------
@@ -404,11 +409,13 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
         "classes": 512,
         "seed": seed,
         "discount": 0.99,
-        "epsilon": 1.0,
+        "epsilon": 0.5,
         "tolerance": 0.001,
     }
     if changes.get("criterion") == "returns":
-        fields |= {"epsilon": 0.8, "alpha": 0.0001}
+        fields |= {"epsilon": 0.8, "alpha_known": 0.0001}
+    if real:
+        fields["successors"] = False
     try:
         return Config(actions, **(fields | changes))
     except TypeError as error:
@@ -455,7 +462,7 @@ def learn(
         Called with the run after each learning step; if it returns True, learning ends.
     **config
         Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
-        million), ``classes`` is 512, ``discount`` 0.99, ``epsilon`` 1 and ``tolerance`` 0.001.
+        million), ``classes`` is 512, ``discount`` 0.99, ``epsilon`` 0.5 and ``tolerance`` 0.001.
 
     Returns
     -------
@@ -490,7 +497,7 @@ def learn(
             walked = learner.warm_up(count, np.random.default_rng([seed, 2]))
             samples = [one for transition in walked for one in transition[0]]
         encoder = Encoder(stream.observation_space, samples, thresholds)
-    settings = default_config(stream.actions, interactions, seed % 2**32, config)
+    settings = default_config(stream.actions, interactions, seed % 2**32, config, getattr(encoder, "real", False))
     run = Run(Agent(domain_of(encoder), settings), encoder, seed, stream.start)
     for transition in walked:
         choices = np.zeros(len(transition[1]), CHOICE)

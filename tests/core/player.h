@@ -82,6 +82,8 @@ static inline void player_enter_world(player *p, int form) {
     p->config.classes = 20;
     p->config.capacity = 300;
     p->config.alpha = 0.05f;
+    p->config.alpha_known = 0.05f;
+    p->config.successors = 0;
 }
 
 /* Makes the agent that p->config asks for. */

@@ -395,7 +395,7 @@ static void test_answers(void **state) {
         unsigned char feature[2] = {99, 99};
         assert_int_equal(rlvc_split_at(p.agent, j, &split, feature), RLVC_OK);
         assert_int_equal(rlvc_split_at(p.agent, j, NULL, NULL), RLVC_OK);
-        assert_true(split.class_id <= j && split.action <= GRIDWORLD_ACTIONS);
+        assert_true(split.class_id <= j && split.action <= GRIDWORLD_ACTIONS + 1u);
         assert_true(split.log_p < -2.99f && split.score > 0.0f && split.samples >= 8u);
         assert_in_range(rlvc_bits_feature(feature), 0, 5);
     }

@@ -17,6 +17,7 @@ static rlvc_domain domain;
 static void make(void) {
     assert_int_equal(rlvc_bits_domain(18, &domain), RLVC_OK);
     assert_int_equal(rlvc_config_default(&config, &domain, 4), RLVC_OK);
+    config.successors = 0; /* which asks something of other fields: see test_successors */
 }
 
 static rlvc_status check(const char **why) {
@@ -41,10 +42,12 @@ static void test_defaults(void **state) {
     make();
     for (size_t i = 0; i < sizeof features / sizeof features[0]; i++) {
         domain.features_max = features[i];
+        domain.kind = i % 2 ? RLVC_DOMAIN_BITS : RLVC_DOMAIN_OWN;
         memset(&config, 0xa5, sizeof config);
         assert_int_equal(rlvc_config_default(&config, &domain, 9), RLVC_OK);
         assert_int_equal(config.features_at_once, at_once[i]);
         assert_int_equal(config.actions, 9);
+        assert_int_equal(config.successors, i % 2 && features[i] <= 64);
         expect(NULL, "defaults");
     }
     /* As the header states them. */
@@ -59,8 +62,8 @@ static void test_defaults(void **state) {
     assert_int_equal(config.untried, RLVC_UNTRIED_EXCLUDED);
     assert_int_equal(config.continuing, 0);
     const float numbers[] = {config.discount,  config.epsilon,       config.alpha,
-                             config.tolerance, config.learning_rate, config.optimistic_value};
-    const float expected[] = {0.9f, 0.9f, 0.005f, 0.01f, 0.1f, 0.0f};
+                             config.alpha_known, config.tolerance, config.learning_rate, config.optimistic_value};
+    const float expected[] = {0.9f, 0.9f, 0.0001f, 0.1f, 0.01f, 0.1f, 0.0f};
     assert_memory_equal(numbers, expected, sizeof expected);
 }
 
@@ -118,9 +121,9 @@ static void test_choices(void **state) {
         {"solver", &config.solver, RLVC_SOLVER_SARSA},
         {"untried", &config.untried, RLVC_UNTRIED_OPTIMISTIC},
         {"continuing", &config.continuing, 1},
+        {"successors", &config.successors, 1},
         {"reserved", &config.reserved[0], 0},
         {"reserved", &config.reserved[1], 0},
-        {"reserved", &config.reserved[2], 0},
     };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
         for (uint32_t value = 0; value <= UINT8_MAX; value++) {
@@ -148,6 +151,7 @@ static void test_numbers(void **state) {
          {zero, -zero, least, one},
          {-least, beyond_one, nan, infinity}},
         {"alpha", &config.alpha, {least, 0.5f, 0.05f, one}, {zero, beyond_one, nan, -one}},
+        {"alpha_known", &config.alpha_known, {least, 0.5f, 0.05f, one}, {zero, beyond_one, nan, -one}},
         {"tolerance", &config.tolerance, {least, one, 10.0f, most}, {zero, beyond, nan, -one}},
         {"learning_rate",
          &config.learning_rate,
@@ -198,11 +202,32 @@ static void test_callbacks(void **state) {
     expect(NULL, "with both");
 }
 
+/* Looking for what follows needs all candidates in one block. */
+static void test_successors(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t features_max, features_at_once;
+        uint8_t own_oracle, possible;
+    } cases[] = {{18, 18, 0, 1}, {18, 64, 0, 1}, {1, 1, 0, 1},  {19, 18, 0, 0},
+                 {0, 64, 0, 0},  {65, 64, 0, 0}, {18, 18, 1, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        make();
+        domain.features_max = cases[i].features_max;
+        domain.oracle = cases[i].own_oracle ? oracle : NULL;
+        config.features_at_once = cases[i].features_at_once;
+        config.successors = 1;
+        expect(cases[i].possible ? NULL : "successors", "successors");
+        config.successors = 0;
+        expect(NULL, "no successors");
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults), cmocka_unit_test(test_null),
         cmocka_unit_test(test_counts),   cmocka_unit_test(test_choices),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_callbacks),
+        cmocka_unit_test(test_successors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

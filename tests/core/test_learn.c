@@ -49,7 +49,9 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.untried = l->solver % 2u;
     agent->config.epsilon = l->criterion == RLVC_CRITERION_RETURNS ? 0.5f : 0.9f;
     agent->config.capacity = 160;
-    agent->config.features_at_once = 2;
+    agent->config.alpha_known = 0.3f;
+    agent->config.successors = l->form != OWN_ORACLE && l->score != RLVC_SCORE_GINI;
+    agent->config.features_at_once = agent->config.successors ? 6 : 2;
     player_init(agent);
     for (uint32_t i = 0; i < steps; i++) {
         player_play(agent, 130);
@@ -177,6 +179,41 @@ static void test_too_many_candidates(void **state) {
     assert_int_equal(rlvc_agent_check(p.agent), RLVC_OK);
 }
 
+/* Has no candidates. */
+static int none(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t room,
+                void *features, uint32_t *written) {
+    (void)ctx;
+    (void)samples;
+    (void)first;
+    (void)room;
+    (void)features;
+    *written = 0;
+    return 0;
+}
+
+/* While all rewards are equal, it is the search by what follows that asks for candidates. */
+static void test_candidates_of_what_follows(void **state) {
+    (void)state;
+    for (int nothing = 0; nothing < 2; nothing++) {
+        const rlvc_choice choice = {0, 1};
+        rlvc_progress progress;
+        player_enter_world(&p, BATCH);
+        p.domain.candidates = nothing ? none : too_many;
+        p.config.successors = 1;
+        player_init(&p);
+        for (uint32_t i = 0; i < 100u; i++) {
+            unsigned char percept = (unsigned char)(i / 10u % 2u);
+            if (i == 0)
+                assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
+            assert_int_equal(rlvc_observe(p.agent, choice, 0.0f, &percept, RLVC_GOES_ON), RLVC_OK);
+        }
+        assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_UNBOUNDED, &progress),
+                         nothing ? RLVC_OK : RLVC_E_CALLBACK);
+        assert_int_equal(rlvc_agent_check(p.agent), RLVC_OK);
+        assert_int_equal(player_stats(&p).classes, 1);
+    }
+}
+
 /* ------------------------------------------------------------------ forms of one domain */
 
 /* Feature detector or batch detector, and blocks of any size: the same tree. */
@@ -201,7 +238,37 @@ static void test_detectors_and_blocks(void **state) {
     }
 }
 
-/* ------------------------------------------------------------------ the tree fills up */
+/* ------------------------------------------------------------------ the ring and the tree fill up */
+
+/* Between two episodes there is no current percept, and the ring may hold one interaction more than its
+ * capacity: what is learnt from them is what a larger ring learns from the same. */
+static void test_every_slot_terminated(void **state) {
+    (void)state;
+    for (uint32_t capacity = 127; capacity < 131u; capacity++) {
+        for (uint32_t room = 0; room < 2u; room++) {
+            rlvc_rng rng;
+            rlvc_rng_seed(&rng, capacity);
+            player_enter_world(&p, BATCH);
+            p.config.capacity = capacity + room;
+            p.config.actions = 1;
+            p.config.successors = 1;
+            player_init(&p);
+            for (uint32_t i = 0; i <= capacity; i++) {
+                unsigned char percept = (unsigned char)(rlvc_rng_next(&rng) & 63u);
+                const rlvc_choice choice = {0, 1};
+                float reward = (float)(percept & 3u);
+                assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
+                assert_int_equal(rlvc_observe(p.agent, choice, reward, NULL, RLVC_TERMINATED),
+                                 RLVC_OK);
+            }
+            assert_int_equal(player_stats(&p).stored, capacity + 1u);
+            player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
+            assert_int_equal(player_stats(&p).classes, 4);
+            player_result_of(&p, room == 0 ? &expected : &got);
+        }
+        assert_memory_equal(&got, &expected, sizeof got);
+    }
+}
 
 static void test_full_tree(void **state) {
     (void)state;
@@ -366,7 +433,9 @@ int main(void) {
         cmocka_unit_test(test_every_callback_fails),
         cmocka_unit_test(test_callbacks_call_back),
         cmocka_unit_test(test_too_many_candidates),
+        cmocka_unit_test(test_candidates_of_what_follows),
         cmocka_unit_test(test_detectors_and_blocks),
+        cmocka_unit_test(test_every_slot_terminated),
         cmocka_unit_test(test_full_tree),
         cmocka_unit_test(test_observe_while_learning),
         cmocka_unit_test(test_full_ring_while_learning),

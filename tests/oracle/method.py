@@ -230,6 +230,24 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
     return Search(alone, together, groups, numpy.log(max(len(features), 1)))
 
 
+def follow(percepts, nexts, actions, action_count, min_samples):
+    """Looks for a feature f of s that s' depends on: for each pair (g, f) that has a table, in the order
+    in which ties go, the sum of statistics over the actions, and its degrees of freedom."""
+    if len(percepts) < min_samples:
+        return {}
+    sums = {}
+    for action in range(action_count):
+        now, then = (x[actions == action].astype(float) for x in (percepts, nexts))
+        n, f, g, both = len(now), now.sum(0), then.sum(0), now.T @ then
+        for j, i in numpy.ndindex(len(g), len(f)):
+            if 0 < f[i] < n and 0 < g[j] < n:
+                b = both[i, j]
+                statistic = float(pearson(b, f[i] - b, g[j] - b, n - f[i] - g[j] + b))
+                before = sums.get((j, i), (0.0, 0))
+                sums[j, i] = before[0] + statistic, before[1] + 1
+    return sums
+
+
 # ------------------------------------------------------------------ classes (section 4.3)
 
 

@@ -6,6 +6,7 @@ goes on with its choice; but of tables that are the same it must take the first.
 """
 import numpy
 import pytest
+import scipy.stats
 
 import binding
 import method
@@ -19,6 +20,7 @@ class Learner:
     """An agent, and the database that it should have."""
 
     def __init__(self, bits, actions, **fields):
+        fields.setdefault("successors", 0)
         self.agent = binding.Agent(bits, actions, **fields)
         self.config = self.agent.config
         self.tree, self.database, self.current = method.Tree(), [], None
@@ -79,37 +81,56 @@ class Learner:
                                       self.config.discount)
 
     def round(self, left, step):
-        """Every class once; takes the splits that were made off `left`."""
+        """Every class once, and if none is split, once more, by what follows; takes the splits that were
+        made off `left`."""
         targets, (here, _) = self.targets(step), self.classes()
         percepts = numpy.array([x.percept for x in self.database])
         actions = numpy.array([x.action for x in self.database])
         residual = self.config.criterion == method.RESIDUAL
         gap = 2.0 * self.config.tolerance if residual else 0.0
-        splits = []
-        for class_id in range(len(self.tree.splits) + 1):
-            mine = (here == class_id) & ~numpy.isnan(targets)
+        nexts = numpy.array([numpy.zeros_like(x.percept) if x.next is None else x.next
+                             for x in self.database])
+
+        def search(mine):
             found = method.search(percepts[mine], actions[mine], targets[mine], self.config.actions,
                                   gap, self.config.score, self.config.min_samples)
-            split = left[0] if left and left[0][0].class_id == class_id else None
-            if self.compare(found, split):
-                assert split[0].step == step
-                splits.append((class_id, left.pop(0)[1]))
-        for class_id, _ in splits:
-            self.tables.split(class_id)
-        self.tree.splits += splits
-        return len(splits) > 0
+            return self.allowed(found) if found else []
+
+        def follow(mine):
+            return self.following(method.follow(percepts[mine], nexts[mine], actions[mine],
+                                                self.config.actions, self.config.min_samples),
+                                  mine.sum())
+
+        for look in (search, follow)[:1 + self.config.successors]:
+            splits = []
+            for class_id in range(len(self.tree.splits) + 1):
+                split = left[0] if left and left[0][0].class_id == class_id else None
+                known = [bit for _, bit in self.tree.splits + splits]
+                if self.compare(look((here == class_id) & ~numpy.isnan(targets)), split, known):
+                    assert split[0].step == step
+                    splits.append((class_id, left.pop(0)[1]))
+            for class_id, _ in splits:
+                self.tables.split(class_id)
+            self.tree.splits += splits
+            if splits:
+                return True
+        return False
 
     # -------------------------------------------------------------- one class
 
-    def compare(self, found, split):
-        """Whether the class is split; fails if the core's answer is not one that the method allows."""
-        allowed = self.allowed(found) if found else []
-        log_alpha = numpy.log(self.config.alpha)
-        margin = NUMBERS * (1 + abs(log_alpha))
+    def compare(self, allowed, split, known):
+        """Whether the class is split; fails if the core's answer is not one that the method allows.
+        Less evidence is asked of features that the tree knows."""
+
+        def beyond(x, sign):
+            strict, mild = self.config.alpha, max(self.config.alpha, self.config.alpha_known)
+            level = numpy.log(mild if x["bit"] in known else strict)
+            return x["log_p"] < level + sign * NUMBERS * (1 + abs(level))
+
         if split is None:
-            certain = [x for x in allowed if x["log_p"] < log_alpha - margin]
+            certain = [x for x in allowed if beyond(x, -1)]
             assert not certain or len(certain) < len(allowed), f"no split, but {allowed}"
-        if split is None or not any(0.0 > x["log_p"] < log_alpha + margin for x in allowed):
+        if split is None or not any(0.0 > x["log_p"] and beyond(x, 1) for x in allowed):
             return False  # a split that was made nonetheless is left over
         about, bit = split
         got = {name: getattr(about, name) for name in ("action", "samples", "log_tests", "score",
@@ -171,6 +192,18 @@ class Learner:
                                 "score": sums[feature] / samples,
                                 "log_tests": found.log_tests_together(feature),
                                 "log_p": found.log_p_together(feature, chosen)})
+        return options
+
+    def following(self, sums, samples):
+        """The split by what follows that the method allows; several if rounding cannot tell."""
+        most = max((statistic for statistic, _ in sums.values()), default=0.0)
+        options = []
+        for (_, bit), (statistic, degrees) in sorted(sums.items()):
+            if statistic >= most * (1 - NEAR) > 0:
+                log_p = scipy.stats.chi2.logsf(statistic, degrees) + numpy.log(len(sums))
+                options.append({"bit": bit, "action": self.config.actions + 1, "samples": samples,
+                                "score": statistic / samples, "log_tests": numpy.log(len(sums)),
+                                "log_p": min(0.0, log_p)})
         return options
 
     # -------------------------------------------------------------- values
@@ -243,6 +276,44 @@ def test_random_residual(seed):
     for _ in range(2):
         fill(learner, rng, int(rng.integers(5, 250)), levels=int(rng.choice([1, 3, 30])))
         learner.learn()
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_successors(seed):
+    """Percepts whose bits move: some are kept, some copied from others, the rest random. A few rewards."""
+    rng = numpy.random.default_rng(3000 + seed)
+    bits, actions = int(rng.integers(2, 10)), int(rng.integers(1, 5))
+    learner = Learner(
+        bits, actions, classes=200, capacity=1000, successors=1, score=seed % 3, tolerance=1e-4,
+        alpha=[1e-4, 0.01, 0.3][seed % 3], alpha_known=[0.1, 1e-3, 1.0][seed // 3 % 3],
+        min_samples=int(rng.integers(2, 20)))
+    sources = rng.integers(-1, bits, (actions, bits))  # -1: at random
+    for _ in range(2):
+        for _ in range(int(rng.integers(5, 300))):
+            if learner.current is None:
+                learner.begin(rng.integers(0, 2, bits))
+            percept, action = learner.current, int(rng.integers(actions))
+            source, noise = sources[action], rng.integers(0, 2, bits)
+            end = int(rng.choice([GOES_ON, TERMINATED, TRUNCATED], p=[0.9, 0.07, 0.03]))
+            after = numpy.where((source < 0) | (rng.random(bits) < 0.1), noise, percept[source])
+            learner.observe(action, 0, float(seed % 2 and percept[0] and rng.random() < 0.1),
+                            None if end == TERMINATED else after, end)
+        learner.learn()
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_nothing_pays(seed):
+    """While no reward differs, the tree grows by the bits that last, and by no other."""
+    rng = numpy.random.default_rng(4000 + seed)
+    learner = Learner(6, 2, capacity=1000, successors=1)
+    learner.begin(rng.integers(0, 2, 6))
+    for _ in range(400):
+        percept, noise = learner.current, rng.integers(0, 2, 6)
+        lasts = numpy.array([0, 1, 0, 0, 1, 0]) * (rng.random(6) < 0.8)
+        learner.observe(int(rng.integers(2)), 0, 0.0, numpy.where(lasts, percept, noise), GOES_ON)
+    assert learner.learn() == 3
+    assert {bit for _, bit in learner.agent.splits()} == {1, 4}
+    assert all(split.action == 3 for split, _ in learner.agent.splits())
 
 
 @pytest.mark.parametrize("seed", range(60))

@@ -29,7 +29,7 @@ def test_golden(name, phase):
     take("IIII")
     assert take("8B")[5:] == (0, 0, 0)
     discount, epsilon = take("ff")
-    take("4f")
+    take("5f")
     assert (percept_bytes, feature_bytes, actions, capacity, classes_max) == (1, 2, 4, 100, 5)
     assert (round(discount, 6), round(epsilon, 6)) == (0.9, 0.9)
     assert take("QQ")[0] == 90

@@ -208,7 +208,7 @@ def test_the_maze_is_a_proper_environment():
 
 def test_the_maze_is_learnt_and_drawn():
     env = rlvc.envs.BinaryGridworld(render_mode="ansi")
-    run = rlvc.learn(env, 5000, seed=1, discount=0.9, alpha=0.003)
+    run = rlvc.learn(env, 5000, seed=1, discount=0.9)
     assert run.agent.classes == 46
     bits = {int(split.feature) for split in run.agent.splits}
     assert bits == {0, 1, 2, 3, 15, 16, 17}

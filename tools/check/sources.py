@@ -16,7 +16,7 @@ FLOORS = {
     "resume": 8,
     "agent": 7, "config": 7, "export": 7, "learn": 7, "print": 7,
     "state": 6,
-    "model": 5,
+    "model": 5, "succession": 5,
     "export_descriptors": 4, "samples": 4, "split": 4,
     "aliasing": 3, "compact": 3, "incremental": 3, "solver": 3,
     "cutpoint": 2, "returns": 2, "tree": 2, "values": 2,

@@ -13,7 +13,6 @@
 
 namespace {
 
-constexpr uint32_t features_at_once = 8;  // a little time for a little memory
 constexpr uint32_t slice = 1u << 20;      // of learning, between two looks at interrupt_signal()
 constexpr uint32_t look_every = 1u << 16; // interactions, likewise
 
@@ -27,7 +26,6 @@ rlvc_domain make_domain(const Options &options, const gridworld_maze &maze) {
 rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint32_t seed) {
     rlvc_config config;
     check(rlvc_config_default(&config, &domain, GRIDWORLD_ACTIONS), "rlvc_config_default");
-    config.features_at_once = features_at_once;
     config.capacity = options.capacity;
     config.classes = options.classes;
     config.seed = seed;
@@ -37,6 +35,8 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint3
     config.discount = options.gamma;
     config.epsilon = options.epsilon;
     config.alpha = options.alpha;
+    config.alpha_known = options.alpha_known;
+    config.successors = options.successors > 0;
     return config;
 }
 

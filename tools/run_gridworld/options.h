@@ -14,7 +14,9 @@ struct Options {
     uint32_t steps = 0;        // learning steps; 0: see settle()
     float gamma = 0.9f;
     float epsilon = -1.0f; // negative: see settle()
-    float alpha = 0.0f;    // 0: see settle()
+    float alpha = 0.0f;       // 0: see settle()
+    float alpha_known = 0.0f; // likewise
+    int successors = -1;      // negative: likewise
     uint32_t seed = 1;     // of the first run; each further run takes the next number
     uint32_t runs = 0;     // 0: one run, shown in full
     std::string maze;      // a file; empty: Sutton's maze

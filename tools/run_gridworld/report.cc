@@ -41,6 +41,8 @@ Json describe_options(const Options &options) {
             {"gamma", shortest(options.gamma)},
             {"epsilon", shortest(options.epsilon)},
             {"alpha", shortest(options.alpha)},
+            {"alpha_known", shortest(options.alpha_known)},
+            {"successors", options.successors > 0 ? "yes" : "no"},
             {"seed", options.seed},
             {"maze", options.maze.empty() ? Json(nullptr) : Json(options.maze)},
             {"slip", shortest(options.slip)},

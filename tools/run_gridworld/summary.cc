@@ -100,8 +100,10 @@ std::string describe_task(const Options &options, const gridworld_maze &maze) {
         grouped(options.steps).c_str(),
         grouped(returns ? options.interactions : options.interactions / options.steps).c_str(),
         returns ? ", fresh ones in each" : "");
-    text += format("          gamma %g, epsilon %g, alpha %g, seed %u\n", double{options.gamma},
-                   double{options.epsilon}, double{options.alpha}, options.seed);
+    text += format("          gamma %g, epsilon %g, alpha %g, of known bits %g%s, seed %u\n",
+                   double{options.gamma}, double{options.epsilon}, double{options.alpha},
+                   double{options.alpha_known}, options.successors > 0 ? ", successors" : "",
+                   options.seed);
     text += format("Memory    %s bytes: %s interactions, %s classes\n",
                    grouped(learner_bytes(options, maze)).c_str(), grouped(options.capacity).c_str(),
                    grouped(options.classes).c_str());

@@ -50,7 +50,7 @@ typedef struct rlvc_agent rlvc_agent;
 typedef struct rlvc_config {
     uint32_t actions;          /* how many actions, [1, 255]; no default */
     uint32_t capacity;         /* interactions the ring holds, [1, 2^31 - 1]; when it is full the oldest
-                                  leaves. A truncated or torn episode takes the room of one more.
+                                  leaves (between two episodes it may hold one more). A truncated or torn episode takes the room of one more.
                                   Default 2000 */
     uint32_t classes;          /* classes the tree may grow to, [1, 65535]. Default 64 */
     uint32_t features_at_once; /* candidate features whose bit columns are held in memory together,
@@ -68,11 +68,20 @@ typedef struct rlvc_config {
     uint8_t continuing;        /* 1: the window of definition 1 runs on through a terminated
                                   interaction into the next episode, as in the paper's teleporting
                                   maze; 0: it ends there. Default 0 */
-    uint8_t reserved[3];       /* 0 */
+    uint8_t successors;        /* 1: a class none of whose targets tell anything apart is aliased, too, if
+                                  what follows the same action differs, even while all rewards are
+                                  alike (residual criterion only; the candidates of a class must fit
+                                  into features_at_once; not with an own oracle). Default 1 for bits, if
+                                  there are no more than 64, else 0 */
+    uint8_t reserved[2];       /* 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
     float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
-    float alpha;               /* a split is kept if its p-value, corrected for the number of tests
-                                  tried, is below this, (0, 1]. Default 0.005 */
+    float alpha;               /* a split by a feature that is new to the tree is kept if its p-value,
+                                  corrected for the number of tests tried, is below this, (0, 1].
+                                  Default 0.0001 */
+    float alpha_known;         /* the same for a feature that the tree holds already, and that has so
+                                  proved to be no noise: less evidence is asked of it, (0, 1]; below
+                                  alpha it has no effect. Default 0.1 */
     float tolerance;           /* a batch solver's values are within this of the fixed point, in units
                                   of reward, (0, RLVC_REWARD_MAX]; targets nearer than twice this
                                   count as equal under the residual criterion. Default 0.01 */
@@ -128,12 +137,12 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
      RLVC_ROUND_UP_8(classes) * 2u)
 /* and the samples, cutpoints and bit columns of the search for a split. */
 #define RLVC_SEARCH_BYTES(actions, capacity, feature_bytes, features_at_once)                      \
-    (RLVC_ROUND_UP_8((size_t)(capacity) * 8u) + RLVC_SEARCH_WORDS(actions, capacity) * 8u +        \
+    (((size_t)(capacity) + 1u) * 8u + RLVC_SEARCH_WORDS(actions, capacity) * 8u +        \
      RLVC_SEARCH_COLUMN_BYTES(actions, capacity, features_at_once) +                               \
      RLVC_ROUND_UP_8((size_t)(features_at_once) * (feature_bytes)) +                               \
      RLVC_ROUND_UP_8(feature_bytes) * 2u + (size_t)(actions) * 16u +                               \
      (size_t)(features_at_once) * 16u)
-#define RLVC_SEARCH_WORDS(actions, capacity) (((size_t)(capacity) + 63u * (size_t)(actions)) / 64u)
+#define RLVC_SEARCH_WORDS(actions, capacity) (((size_t)(capacity) + 1u + 63u * (size_t)(actions)) / 64u)
 #define RLVC_SEARCH_COLUMN_BYTES(actions, capacity, features_at_once)                              \
     (((RLVC_SEARCH_WORDS(actions, capacity) | 1u) * (features_at_once) * 8u) > 2048u               \
          ? ((RLVC_SEARCH_WORDS(actions, capacity) | 1u) * (features_at_once) * 8u)                 \
@@ -252,11 +261,12 @@ typedef struct rlvc_split {
     uint32_t class_id;  /* the class that was split */
     uint32_t step;      /* k at that time */
     uint32_t action;    /* the action whose targets betrayed the aliasing, [0, actions), or `actions` if
-                           those of all actions did together */
+                           those of all actions did together, or `actions` + 1 if what followed them
+                           did (config.successors) */
     uint32_t samples;   /* of that class and action, or of the class */
     float log_tests;    /* natural logarithm of the number of tests that log_p is corrected by */
     float score;        /* of the split, as config.score measures it (together: the mean over the
-                           samples; of chi-square too) */
+                           samples; of chi-square too; by what followed: always of chi-square) */
     float log_p;        /* natural logarithm of the corrected p-value */
 } rlvc_split;
 

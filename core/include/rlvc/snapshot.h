@@ -57,7 +57,7 @@ RLVC_API rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_do
       ((size_t)(classes)-1u) * ((feature_bytes) + 28u) + (size_t)(classes)*8u +                    \
       (size_t)(classes) * (actions)*12u + 63u) /                                                   \
      64u * 64u)
-#define RLVC_SNAPSHOT_FIXED_BYTES 219u
+#define RLVC_SNAPSHOT_FIXED_BYTES 223u
 
 /* Writes a snapshot. The agent is not changed. Stack and memory are bounded, but the time is what the
  * store takes for all the bytes. O(bytes).

@@ -214,7 +214,9 @@ def learn_from(
         encoder, before, after = None, read_log.before, read_log.after
     else:
         domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
-    settings = default_config(count, len(read_log), int(config.get("seed", 1)), config)
+    settings = default_config(
+        count, len(read_log), int(config.get("seed", 1)), config, getattr(encoder, "real", False)
+    )
     run = Run(Agent(domain, settings), encoder, settings.seed)
     choices = np.zeros(len(read_log), CHOICE)
     choices["action"] = read_log.actions

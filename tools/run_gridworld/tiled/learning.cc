@@ -66,6 +66,7 @@ Run::Run(const TiledOptions &options, const gridworld_maze &maze, const Optimum 
     config_.discount = options.gamma;
     config_.epsilon = options.epsilon;
     config_.alpha = options.alpha;
+    config_.alpha_known = options.alpha;
     const char *why = nullptr;
     if (rlvc_config_check(&config_, &domain_, &why) != RLVC_OK) {
         throw Failure(std::string("impossible options: ") + why);
