@@ -14,7 +14,7 @@ from rlvc import plot, report
 
 folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 env = rlvc.envs.BinaryGridworld()
-run = rlvc.learn(env, 6000, seed=1, discount=0.9)
+run = rlvc.learn(env, 2500, seed=1, discount=0.9)
 made = report.make(run, env)
 for kind in ("maze", "values", "curve", "splits", "tree"):
     plot.KINDS[kind](made, folder / f"{kind}.png")

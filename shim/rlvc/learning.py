@@ -409,7 +409,7 @@ def default_config(
         "classes": 512,
         "seed": seed,
         "discount": 0.99,
-        "epsilon": 0.5,
+        "epsilon": 1.0,
         "tolerance": 0.001,
     }
     if changes.get("criterion") == "returns":
@@ -462,7 +462,7 @@ def learn(
         Called with the run after each learning step; if it returns True, learning ends.
     **config
         Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
-        million), ``classes`` is 512, ``discount`` 0.99, ``epsilon`` 0.5 and ``tolerance`` 0.001.
+        million), ``classes`` is 512, ``discount`` 0.99, ``epsilon`` 1 and ``tolerance`` 0.001.
 
     Returns
     -------
