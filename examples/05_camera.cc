@@ -115,9 +115,9 @@ class Eye {
         rlvc_extractor *made = nullptr;
         check(rlvc_extractor_create(&config_, metric, &made, &error), error);
         extractor_.reset(made);
-        check(rlvc_descriptors_default(
-                  &descriptors_, config_.points, rlvc_vision_dimensions(&config_),
-                  RLVC_DESCRIPTORS_INT8, rlvc_metric_tau(metric) / rlvc_extractor_step(made)),
+        check(rlvc_descriptors_default(&descriptors_, config_.points,
+                                       rlvc_vision_dimensions(&config_), RLVC_DESCRIPTORS_INT8,
+                                       rlvc_metric_tau(metric) / rlvc_extractor_step(made)),
               "");
         check(rlvc_descriptors_domain(&descriptors_, &domain_), "");
         points_.resize(config_.points);

@@ -65,7 +65,8 @@ RLVC_API rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uin
  * Detecting costs O(P D) for each percept and feature, at most. The vectors that candidates come from
  * are drawn from all targets alike, so that a rare one is not missed; without repetition among those
  * of a call. Under the margin rule candidates() measures each vector drawn against up to
- * 512 of the class's percepts, evenly chosen: O(512 P D) for each of room * draws vectors, in one call.
+ * 512 of the class's percepts, evenly chosen: at most O(512 P D) for each of room * draws vectors, in one
+ * call.
  *
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain);
