@@ -41,7 +41,7 @@ class Snapshot:
         self.percept_bytes, self.feature_bytes = self.take("II")
         self.actions, _, _, _, self.min_samples, _, _ = self.take("7I")
         self.take("8B")
-        self.discount, _, self.alpha, self.tolerance, _, _ = self.take("6f")
+        self.discount, _, self.alpha, _, self.tolerance, _, _ = self.take("7f")
         self.take("QQIIIIIf")
         count = self.take("IIIIB")[1]
         slot = np.dtype([("count", "<u4"), ("numbers", "i1", self.percept_bytes - 4),
