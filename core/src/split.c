@@ -74,7 +74,8 @@ uint32_t rlvc_workspace_group(const rlvc_workspace *space, const uint32_t *first
     return words;
 }
 
-void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first) {
+void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching,
+                       const uint32_t *first) {
     const rlvc_workspace *space = searching->space;
     memset(search, 0, sizeof *search);
     search->view.percepts = searching->replay->percept;
@@ -177,8 +178,10 @@ static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searc
     if (domain->detect(domain->ctx, &search->view, group->begin + search->at, n,
                        searching->space->features, search->block, bits) != 0)
         return RLVC_E_CALLBACK;
-    for (uint32_t j = 0; j < search->block; j++)
-        rlvc_workspace_column(searching->space, search->words, j)[group->word + search->at / 64u] = bits[j];
+    for (uint32_t j = 0; j < search->block; j++) {
+        uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
+        column[group->word + search->at / 64u] = bits[j];
+    }
     search->at += n;
     *used = n;
     return RLVC_OK;
@@ -192,9 +195,11 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *search
     uint64_t bit = (uint64_t)1 << search->at % 64u;
     for (uint32_t j = 0; j < search->block; j++) {
         uint8_t present = 0;
-        if (domain->exhibits(domain->ctx, percept, rlvc_workspace_feature(searching->space, j), &present) != 0)
+        if (domain->exhibits(domain->ctx, percept, rlvc_workspace_feature(searching->space, j),
+                             &present) != 0)
             return RLVC_E_CALLBACK;
-        uint64_t *word = &rlvc_workspace_column(searching->space, search->words, j)[group->word + search->at / 64u];
+        uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
+        uint64_t *word = &column[group->word + search->at / 64u];
         *word = (search->at % 64u == 0 ? 0 : *word & ~bit) | (present ? bit : 0);
     }
     search->at++;
@@ -207,16 +212,16 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *search
 static void open_column(rlvc_search *search, const rlvc_searching *searching,
                         const rlvc_group *group) {
     const rlvc_workspace *space = searching->space;
-    rlvc_scan_begin(&search->inner.scan, rlvc_workspace_column(space, search->words, search->column) + group->word,
+    rlvc_scan_begin(&search->inner.scan,
+                    rlvc_workspace_column(space, search->words, search->column) + group->word,
                     space->cuts + group->word, size_of(group), searching->score,
                     search->groups == 1 ? search->alone.score : 0.0f);
 }
 
 static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, uint32_t *used) {
     const rlvc_group *group = &searching->space->group[search->action];
-    rlvc_status status = searching->domain->detect
-                             ? detect_batch(search, searching, group, used)
-                             : detect_each(search, searching, group, used);
+    rlvc_status status = searching->domain->detect ? detect_batch(search, searching, group, used)
+                                                   : detect_each(search, searching, group, used);
     if (status == RLVC_OK && search->at == size_of(group)) {
         open_column(search, searching, group);
         enter(search, SCAN);
@@ -277,7 +282,8 @@ static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
     search->features += pool->degrees > 0;
     if (pool->evidence > search->together.evidence) {
         search->together = *pool;
-        memcpy(space->together, rlvc_workspace_feature(space, search->column), space->feature_bytes);
+        memcpy(space->together, rlvc_workspace_feature(space, search->column),
+               space->feature_bytes);
     }
     if (++search->column < search->block)
         return;

@@ -90,7 +90,8 @@ static rlvc_status fill(rlvc_succession *succession, const rlvc_searching *searc
                         uint32_t budget, uint32_t *used) {
     const rlvc_workspace *space = searching->space;
     const rlvc_group *group = &space->group[succession->action];
-    uint64_t *word = (succession->phase == NOW ? now_column(succession, space) : space->cuts) + group->word;
+    uint64_t *word =
+        (succession->phase == NOW ? now_column(succession, space) : space->cuts) + group->word;
     uint32_t size = group->end - group->begin;
     for (*used = 0; *used < budget && succession->at < size; ++*used) {
         uint32_t at = succession->at;

@@ -34,12 +34,12 @@ typedef struct rlvc_succession {
     uint32_t now;      /* f */
     uint32_t next;     /* g */
     uint32_t action;
-    uint32_t at;       /* sample or word of the action's group */
-    uint32_t with_now; /* samples of the group, so far, whose s exhibits f, */
+    uint32_t at;        /* sample or word of the action's group */
+    uint32_t with_now;  /* samples of the group, so far, whose s exhibits f, */
     uint32_t with_next; /* whose s' exhibits g, */
     uint32_t with_both; /* and both */
-    uint32_t tests;    /* pairs that had a table */
-    float log_p;       /* of the best, not yet corrected */
+    uint32_t tests;     /* pairs that had a table */
+    float log_p;        /* of the best, not yet corrected */
     uint8_t phase;
     uint8_t done;
 } rlvc_succession;

@@ -240,7 +240,7 @@ def test_camera(tmp_path):
 @pytest.mark.skipif(not COIL100, reason="RLVC_COIL100 does not name a folder of COIL-100 pictures")
 def test_photographs(tmp_path):
     fixed = ("--images", COIL100, "--descriptor", "invariants", "--raw-light", "--margin", 1,
-             "--share", 0.2, "--runs", 20)
+             "--runs", 20)
     made = report(tmp_path, *fixed)
     assert made["optimal_seen"] == 1.0
     assert max(one["classes"] for one in made["runs"]) <= 46
