@@ -55,6 +55,9 @@ def main():
         sys.stdout.write(output.decode())
         return 0
     if arguments.lines:
+        if not output.startswith(b"| "):
+            print(f"no table: {' '.join(arguments.command)}", file=sys.stderr)
+            return 1
         return compare_table(arguments.table, output.decode(), arguments.write)
     part = json_part(output)
     if arguments.json:
