@@ -497,7 +497,8 @@ def learn(
             walked = learner.warm_up(count, np.random.default_rng([seed, 2]))
             samples = [one for transition in walked for one in transition[0]]
         encoder = Encoder(stream.observation_space, samples, thresholds)
-    settings = default_config(stream.actions, interactions, seed % 2**32, config, getattr(encoder, "real", False))
+    real = getattr(encoder, "real", False)
+    settings = default_config(stream.actions, interactions, seed % 2**32, config, real)
     run = Run(Agent(domain_of(encoder), settings), encoder, seed, stream.start)
     for transition in walked:
         choices = np.zeros(len(transition[1]), CHOICE)
