@@ -61,8 +61,14 @@ static void open_sort(rlvc_search *search, const rlvc_workspace *space) {
     enter(search, SORT);
 }
 
-uint32_t rlvc_workspace_group(const rlvc_workspace *space, const uint32_t *first) {
+uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *first,
+                             rlvc_samples *view) {
+    const rlvc_workspace *space = searching->space;
     uint32_t words = 0;
+    view->percepts = searching->replay->percept;
+    view->percept_bytes = searching->replay->percept_bytes;
+    view->sample = space->sample + first[0];
+    view->count = first[space->actions] - first[0];
     for (uint32_t a = 0; a < space->actions; a++) {
         rlvc_group *group = &space->group[a];
         group->begin = first[a] - first[0];
@@ -74,15 +80,23 @@ uint32_t rlvc_workspace_group(const rlvc_workspace *space, const uint32_t *first
     return words;
 }
 
+rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_samples *view,
+                                   uint32_t first, uint32_t *written) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_domain *domain = searching->domain;
+    *written = 0;
+    return domain->candidates(domain->ctx, view, first, space->features_at_once, space->features,
+                              written) == 0 &&
+                   *written <= space->features_at_once
+               ? RLVC_OK
+               : RLVC_E_CALLBACK;
+}
+
 void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching,
                        const uint32_t *first) {
     const rlvc_workspace *space = searching->space;
     memset(search, 0, sizeof *search);
-    search->view.percepts = searching->replay->percept;
-    search->view.percept_bytes = searching->replay->percept_bytes;
-    search->view.sample = space->sample + first[0];
-    search->view.count = first[space->actions] - first[0];
-    search->words = rlvc_workspace_group(space, first);
+    search->words = rlvc_searching_open(searching, first, &search->view);
     if (search->view.count < searching->min_samples)
         enter(search, DONE);
     else
@@ -151,12 +165,10 @@ static void next_group(rlvc_search *search, const rlvc_workspace *space, uint8_t
 static rlvc_status propose(rlvc_search *search, const rlvc_searching *searching) {
     static const rlvc_pool nothing = {0.0f, 0.0f, 0.0f, 0};
     const rlvc_workspace *space = searching->space;
-    const rlvc_domain *domain = searching->domain;
-    uint32_t written = 0;
-    if (domain->candidates(domain->ctx, &search->view, search->first, space->features_at_once,
-                           space->features, &written) != 0 ||
-        written > space->features_at_once)
-        return RLVC_E_CALLBACK;
+    uint32_t written;
+    rlvc_status status = rlvc_searching_propose(searching, &search->view, search->first, &written);
+    if (status != RLVC_OK)
+        return status;
     search->block = written;
     search->action = 0;
     for (uint32_t j = 0; j < written; j++)

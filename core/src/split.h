@@ -81,10 +81,6 @@ static inline void *rlvc_workspace_feature(const rlvc_workspace *space, uint32_t
     return space->features + (size_t)j * space->feature_bytes;
 }
 
-/* Lays out the groups of the class whose samples after action a are [first[a], first[a + 1]) of all.
- * @return the words of a column. O(actions). */
-uint32_t rlvc_workspace_group(const rlvc_workspace *space, const uint32_t *first);
-
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes);
 
@@ -131,6 +127,17 @@ typedef struct rlvc_searching {
     uint32_t min_samples;
     uint8_t score;
 } rlvc_searching;
+
+/* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes the class,
+ * and the workspace's groups are laid out.
+ * @return the words of a column. O(actions). */
+uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *first,
+                             rlvc_samples *view);
+
+/* Asks for the class's candidates from number `first` on, into the workspace's block.
+ * @return RLVC_OK; RLVC_E_CALLBACK: *written means nothing. */
+rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_samples *view,
+                                   uint32_t first, uint32_t *written);
 
 /* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the workspace's
  * samples. O(actions). */

@@ -26,24 +26,16 @@ static void enter(rlvc_succession *succession, uint8_t phase) {
 
 void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *searching,
                            const uint32_t *first) {
-    const rlvc_workspace *space = searching->space;
     memset(succession, 0, sizeof *succession);
-    succession->view.percepts = searching->replay->percept;
-    succession->view.percept_bytes = searching->replay->percept_bytes;
-    succession->view.sample = space->sample + first[0];
-    succession->view.count = first[space->actions] - first[0];
-    succession->words = rlvc_workspace_group(space, first);
+    succession->words = rlvc_searching_open(searching, first, &succession->view);
     enter(succession, succession->view.count < searching->min_samples ? DONE : PROPOSE);
 }
 
 static rlvc_status propose(rlvc_succession *succession, const rlvc_searching *searching) {
-    const rlvc_workspace *space = searching->space;
-    const rlvc_domain *domain = searching->domain;
-    uint32_t written = 0;
-    if (domain->candidates(domain->ctx, &succession->view, 0, space->features_at_once,
-                           space->features, &written) != 0 ||
-        written > space->features_at_once)
-        return RLVC_E_CALLBACK;
+    uint32_t written;
+    rlvc_status status = rlvc_searching_propose(searching, &succession->view, 0, &written);
+    if (status != RLVC_OK)
+        return status;
     succession->features = written;
     enter(succession, written > 0 ? NOW : DONE);
     return RLVC_OK;
