@@ -20,6 +20,7 @@ static void carve(rlvc_agent *agent, rlvc_arena *arena) {
     rlvc_replay_carve(&agent->replay, arena, config, domain->percept_bytes);
     rlvc_tree_carve(&agent->tree, arena, config->classes, domain->feature_bytes);
     rlvc_values_carve(&agent->values, arena, config);
+    rlvc_explorer_carve(&agent->explorer, arena, config);
     agent->pending = rlvc_arena_carve(arena, config->classes, sizeof *agent->pending);
     rlvc_workspace_carve(&agent->space, arena, config, domain->feature_bytes);
 }
@@ -65,6 +66,7 @@ rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain
     carve(made, &arena);
     rlvc_tree_clear(&made->tree);
     rlvc_values_clear(&made->values);
+    rlvc_explorer_clear(&made->explorer, config->actions);
     made->pending[0] = 0;
     rlvc_rng_seed(&made->rng, config->seed);
     *agent = made;
@@ -110,20 +112,25 @@ rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice) {
         return RLVC_E_NULL;
     if (!agent->replay.open)
         return RLVC_E_ORDER;
+    int directed = agent->config.explore == RLVC_EXPLORE_DIRECTED;
     rlvc_rng rng = agent->rng;
-    uint32_t run = agent->run;
+    uint32_t run = agent->run, class_id = 0, action;
     if (run == 0 && !(rlvc_rng_uniform(&rng) < agent->config.epsilon))
         run = agent->config.criterion == RLVC_CRITERION_RETURNS ? agent->step + 1u : 1u;
-    uint32_t action = 0;
-    if (run > 0) {
-        uint32_t slot = rlvc_replay_slot(&agent->replay, agent->replay.count - 1), class_id = 0;
+    if (run > 0 || directed) {
+        uint32_t slot = rlvc_replay_slot(&agent->replay, agent->replay.count - 1);
         status = classify(agent, rlvc_replay_percept(&agent->replay, slot), &class_id);
         if (status != RLVC_OK)
             return status;
-        action = agent->values.policy[class_id];
-    } else {
-        action = rlvc_rng_below(&rng, agent->config.actions);
     }
+    if (run > 0)
+        action = agent->values.policy[class_id];
+    else if (directed)
+        action = rlvc_explorer_choose(&agent->explorer, &agent->values, class_id, &rng);
+    else
+        action = rlvc_rng_below(&rng, agent->config.actions);
+    if (directed)
+        rlvc_explorer_note(&agent->explorer, agent->config.actions, class_id, action);
     choice->action = (uint8_t)action;
     choice->exploited = run > 0;
     agent->run = run > 0 ? run - 1u : 0;
@@ -251,6 +258,7 @@ rlvc_status rlvc_agent_check(const rlvc_agent *agent) {
     int sound = rlvc_config_check(&agent->config, &agent->domain, NULL) == RLVC_OK &&
                 rlvc_tree_check(&agent->tree) &&
                 rlvc_replay_check(&agent->replay, agent->config.actions, agent->tree.classes) &&
-                rlvc_values_check(&agent->values, agent->tree.classes);
+                rlvc_values_check(&agent->values, agent->tree.classes) &&
+                rlvc_explorer_check(&agent->explorer, agent->config.actions, agent->tree.classes);
     return sound ? RLVC_OK : RLVC_E_MEMORY;
 }

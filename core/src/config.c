@@ -14,6 +14,7 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
         .score = RLVC_SCORE_GAIN,
         .solver = RLVC_SOLVER_VALUE_ITERATION,
         .untried = RLVC_UNTRIED_EXCLUDED,
+        .explore = RLVC_EXPLORE_DIRECTED,
         .discount = 0.9f,
         .epsilon = 0.9f,
         .alpha = 0.0001f,
@@ -83,7 +84,9 @@ static const char *wrong_in_choices(const rlvc_config *config) {
         return "continuing must be 0 or 1";
     if (config->successors > 1)
         return "successors must be 0 or 1";
-    if (config->reserved[0] || config->reserved[1])
+    if (config->explore > RLVC_EXPLORE_DIRECTED)
+        return "explore must be one of RLVC_EXPLORE_*";
+    if (config->reserved)
         return "reserved must be 0";
     return NULL;
 }

@@ -8,10 +8,12 @@
  * targets tell nothing apart may be aliased by what follows (SUCCESSION): looked for when a round split
  * nothing; what is found makes another round.
  *
- *     residual:  LABEL  MODEL SOLVE  GROUP SEARCH    each round; the targets need the values of its classes
- *                SUCCESSION                          if that split nothing, and config.successors
- *     returns:   LABEL  GROUP SEARCH                 each round; the targets are facts
- *                MODEL SOLVE                         once, after the last
+ *     residual:  LABEL  MODEL SOLVE SEEK  GROUP SEARCH   each round; the targets need the values of its classes
+ *                SUCCESSION                              if that split nothing, and config.successors
+ *     returns:   LABEL  GROUP SEARCH                     each round; the targets are facts
+ *                MODEL SOLVE SEEK                        once, after the last
+ *
+ * SEEK is for directed exploration. It stands where the model does, which the next GROUP overwrites.
  *
  * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing. In their place
  * KEEP copies V for the residual's targets, or these would change while the step is under way.
@@ -70,6 +72,10 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
         rlvc_model_begin(&learner->work.model, pairs(agent));
     } else if (phase == RLVC_PHASE_SOLVE) {
         rlvc_solver_begin(&learner->work.solver, agent->config.solver);
+    } else if (phase == RLVC_PHASE_SEEK) {
+        rlvc_solving solving = rlvc_learner_solving(agent);
+        agent->explorer.least = rlvc_explorer_least(learner->end, pairs(agent));
+        rlvc_seeking_begin(&learner->work.seeking, &solving, &agent->values);
     }
 }
 
@@ -144,6 +150,7 @@ static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
         rlvc_values_forget(&agent->values, made);
         rlvc_values_forget(&agent->values, learner->at);
     }
+    rlvc_explorer_inherit(&agent->explorer, agent->config.actions, made, learner->at);
     agent->pending[learner->at] = (uint16_t)made;
     agent->pending[made] = 0;
     agent->last_split = agent->step;
@@ -268,6 +275,12 @@ static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
 /* What a unit of the solver's is charged: it is arithmetic, where others but look. */
 #define SOLVE_UNITS 2u
 
+/* The values are there: what comes then. */
+static void leave_model(rlvc_agent *agent) {
+    enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH
+                                                                   : RLVC_PHASE_GROUP);
+}
+
 static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
     rlvc_solver *solver = &agent->learner.work.solver;
     rlvc_solving solving = rlvc_learner_solving(agent);
@@ -276,9 +289,21 @@ static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
     if (solver->done) {
         agent->sweeps = solver->sweeps;
         agent->residual = solver->residual;
-        enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH
-                                                                       : RLVC_PHASE_GROUP);
+        if (agent->config.explore == RLVC_EXPLORE_DIRECTED)
+            enter(agent, RLVC_PHASE_SEEK);
+        else
+            leave_model(agent);
     }
+    return used;
+}
+
+static uint32_t step_seek(rlvc_agent *agent, uint32_t budget) {
+    rlvc_seeking *seeking = &agent->learner.work.seeking;
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    uint32_t used = SOLVE_UNITS * rlvc_seeking_step(seeking, &solving, &agent->values,
+                                                    &agent->explorer, budget / SOLVE_UNITS);
+    if (seeking->done)
+        leave_model(agent);
     return used;
 }
 
@@ -323,6 +348,9 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
         break;
     case RLVC_PHASE_SOLVE:
         *used = step_solve(agent, budget);
+        break;
+    case RLVC_PHASE_SEEK:
+        *used = step_seek(agent, budget);
         break;
     default:
         step_finish(agent);

@@ -16,6 +16,8 @@ void rlvc_resume_mark(const rlvc_agent *agent, rlvc_mark *mark) {
         rlvc_model_mark(&learner->work.model, mark->word);
     else if (learner->phase == RLVC_PHASE_SOLVE)
         rlvc_solver_mark(&learner->work.solver, mark->word);
+    else if (learner->phase == RLVC_PHASE_SEEK)
+        rlvc_seeking_mark(&learner->work.seeking, mark->word);
     else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching)
         rlvc_search_mark(&learner->work.search, mark->word);
     else if (learner->phase == RLVC_PHASE_SUCCESSION && learner->searching)
@@ -49,6 +51,8 @@ static int phase_is_possible(const rlvc_agent *agent) {
     case RLVC_PHASE_MODEL:
     case RLVC_PHASE_SOLVE:
         return !incremental;
+    case RLVC_PHASE_SEEK:
+        return !incremental && agent->config.explore == RLVC_EXPLORE_DIRECTED;
     case RLVC_PHASE_SUCCESSION:
         return agent->config.successors && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
     default:
@@ -115,8 +119,18 @@ static int is_done(const rlvc_agent *agent) {
         return learner->work.grouping.done;
     if (learner->phase == RLVC_PHASE_SUCCESSION)
         return learner->work.succession.done;
+    if (learner->phase == RLVC_PHASE_SEEK)
+        return learner->work.seeking.done;
     return learner->phase == RLVC_PHASE_MODEL ? learner->work.model.done
                                               : learner->work.search.done;
+}
+
+/* What was counted while the phase was under way stays as it was loaded. */
+static void seek_single(rlvc_agent *agent) {
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    rlvc_explorer counted = agent->explorer;
+    counted.seen = NULL;
+    (void)rlvc_seeking_step(&agent->learner.work.seeking, &solving, &agent->values, &counted, 1);
 }
 
 static rlvc_status single(rlvc_agent *agent) {
@@ -128,7 +142,9 @@ static rlvc_status single(rlvc_agent *agent) {
         return rlvc_search_single(&learner->work.search, &searching);
     if (learner->phase == RLVC_PHASE_SUCCESSION)
         return rlvc_succession_single(&learner->work.succession, &searching);
-    if (learner->phase == RLVC_PHASE_GROUP)
+    if (learner->phase == RLVC_PHASE_SEEK)
+        seek_single(agent);
+    else if (learner->phase == RLVC_PHASE_GROUP)
         (void)rlvc_grouping_step(&learner->work.grouping, &criterion, agent->space.sample,
                                  agent->values.first, 1);
     else
@@ -192,9 +208,18 @@ static rlvc_status redo_solve(rlvc_agent *agent, const rlvc_mark *mark) {
                                                                              : RLVC_E_DAMAGED;
 }
 
+static rlvc_status redo_seek(rlvc_agent *agent, const rlvc_mark *mark) {
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    (void)redo(agent, RLVC_PHASE_MODEL, NULL);
+    rlvc_seeking_begin(&agent->learner.work.seeking, &solving, &agent->values);
+    return advance_to(agent, mark);
+}
+
 rlvc_status rlvc_resume(rlvc_agent *agent, const rlvc_mark *mark) {
     static const rlvc_mark none = {{0}};
     rlvc_learner *learner = &agent->learner;
+    if (learner->phase == RLVC_PHASE_SEEK)
+        return redo_seek(agent, mark);
     if (learner->phase == RLVC_PHASE_SOLVE)
         return redo_solve(agent, mark);
     if (rlvc_phase_splits(learner->phase) && learner->searching)

@@ -25,7 +25,8 @@ static void pass_config(rlvc_stream *s, rlvc_config *config) {
     rlvc_stream_u8(s, &config->untried);
     rlvc_stream_u8(s, &config->continuing);
     rlvc_stream_u8(s, &config->successors);
-    rlvc_stream_bytes(s, config->reserved, sizeof config->reserved);
+    rlvc_stream_u8(s, &config->explore);
+    rlvc_stream_u8(s, &config->reserved);
     rlvc_stream_float(s, &config->discount);
     rlvc_stream_float(s, &config->epsilon);
     rlvc_stream_float(s, &config->alpha);
@@ -142,6 +143,15 @@ static void pass_values(rlvc_stream *s, rlvc_agent *agent) {
     }
 }
 
+static void pass_explorer(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_explorer *explorer = &agent->explorer;
+    rlvc_stream_u8(s, &explorer->least);
+    rlvc_stream_u8(s, &explorer->last);
+    for (uint32_t c = 0; c < agent->tree.classes; c++)
+        rlvc_stream_u16(s, &explorer->lead[c]);
+    rlvc_stream_bytes(s, explorer->seen, agent->tree.classes * agent->config.actions);
+}
+
 /* Between two steps a learner has nothing to tell: zeros. */
 static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_mark *mark) {
     uint8_t phase = learner->phase, searching = phase ? learner->searching : 0;
@@ -169,6 +179,7 @@ static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_mark *mark) {
     if (!pass_replay(s, &agent->replay) || !pass_tree(s, agent))
         return 0;
     pass_values(s, agent);
+    pass_explorer(s, agent);
     pass_learner(s, &agent->learner, mark);
     return 1;
 }
@@ -188,7 +199,7 @@ static uint64_t largest(const rlvc_config *config, const rlvc_domain *domain) {
     uint64_t size = RLVC_SNAPSHOT_FIXED_BYTES;
     size += ((uint64_t)config->capacity + 1u) * (domain->percept_bytes + 8u);
     size += (classes - 1u) * (domain->feature_bytes + 28u);
-    size += classes * 8u + classes * config->actions * 12u;
+    size += classes * 10u + classes * config->actions * 13u;
     return (size + unit - 1u) / unit * unit;
 }
 
@@ -281,6 +292,7 @@ static int same_config(const rlvc_config *a, const rlvc_config *b) {
            a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
            a->score == b->score && a->solver == b->solver && a->untried == b->untried &&
            a->continuing == b->continuing && a->successors == b->successors &&
+           a->explore == b->explore &&
            same_float(a->discount, b->discount) &&
            same_float(a->epsilon, b->epsilon) && same_float(a->alpha, b->alpha) &&
            same_float(a->alpha_known, b->alpha_known) &&

@@ -5,6 +5,7 @@
 
 #include "model.h"
 #include "rng.h"
+#include "seek.h"
 #include "solver.h"
 #include "split.h"
 #include "succession.h"
@@ -18,6 +19,7 @@ typedef struct rlvc_learner {
         rlvc_succession succession;
         rlvc_model model;
         rlvc_solver solver;
+        rlvc_seeking seeking;
     } work;              /* of the phase */
     uint32_t end;        /* N: interactions at positions [0, end) are the database */
     uint32_t at;         /* position, pair or class, by phase */
@@ -37,6 +39,7 @@ struct rlvc_agent {
     rlvc_replay replay;
     rlvc_tree tree;
     rlvc_values values;
+    rlvc_explorer explorer;
     rlvc_workspace space;
     rlvc_learner learner;
     rlvc_rng rng;

@@ -7,7 +7,6 @@
 static uint64_t block[RLVC_AGENT_BYTES(GRIDWORLD_ACTIONS, CAPACITY, CLASSES, PERCEPT_BYTES,
                                        RLVC_BITS_FEATURE_BYTES, FEATURES_AT_ONCE) /
                       sizeof(uint64_t)];
-static uint8_t tried[CLASSES][GRIDWORLD_ACTIONS];
 
 uint32_t robot_block_bytes(void) {
     return (uint32_t)sizeof block;
@@ -25,8 +24,10 @@ int robot_init(struct robot *robot) {
     config.classes = CLASSES;
     config.seed = SEED;
     config.criterion = CRITERION;
-    config.continuing =
-        CRITERION == RLVC_CRITERION_RETURNS; /* through the teleport, as published */
+    if (CRITERION == RLVC_CRITERION_RETURNS) { /* as published: through the teleport, all alike */
+        config.continuing = 1;
+        config.explore = RLVC_EXPLORE_UNIFORM;
+    }
     config.discount = DISCOUNT;
     config.epsilon = EPSILON;
     config.alpha = ALPHA;
@@ -34,7 +35,6 @@ int robot_init(struct robot *robot) {
     config.successors = SUCCESSORS;
     static const struct robot made;
     *robot = made;
-    gridworld_explorer_init(&robot->explorer, tried, CLASSES, SEED);
     if (rlvc_agent_init(&config, &domain, block, sizeof block, &robot->agent) != RLVC_OK ||
         gridworld_init(&robot->world, &gridworld_sutton, DISTRACTORS, 0.0f, SEED) != 0 ||
         gridworld_init(&robot->patrol, &gridworld_sutton, DISTRACTORS, 0.0f, SEED + 1u) != 0) {
@@ -44,35 +44,11 @@ int robot_init(struct robot *robot) {
     return rlvc_begin(robot->agent, robot->percept) == RLVC_OK ? 0 : -1;
 }
 
-/* Under the residual criterion exploration is directed; under the other it is as published. */
-static int choose(struct robot *robot, rlvc_choice *choice) {
-    uint32_t class_id, before[GRIDWORLD_ACTIONS];
-    if (rlvc_act(robot->agent, choice) != RLVC_OK) {
-        return -1;
-    }
-    if (CRITERION == RLVC_CRITERION_RETURNS) {
-        return 0;
-    }
-    if (rlvc_predict(robot->agent, robot->percept, &class_id, NULL) != RLVC_OK) {
-        return -1;
-    }
-    if (!choice->exploited) {
-        for (uint32_t a = 0; a < GRIDWORLD_ACTIONS; a++) {
-            if (rlvc_q(robot->agent, class_id, a, NULL, &before[a]) != RLVC_OK) {
-                return -1;
-            }
-        }
-        choice->action = gridworld_explorer_draw(&robot->explorer, class_id, before);
-    }
-    gridworld_explorer_note(&robot->explorer, class_id, choice->action);
-    return 0;
-}
-
 static int explore(struct robot *robot) {
     rlvc_choice choice;
     rlvc_status status = RLVC_OK;
     float reward = 0.0f;
-    if (choose(robot, &choice) != 0) {
+    if (rlvc_act(robot->agent, &choice) != RLVC_OK) {
         return -1;
     }
     int over = gridworld_step(&robot->world, choice.action, &reward);
@@ -119,7 +95,6 @@ static int lend_slice(struct robot *robot) {
         robot->learning = 0;
         robot->finished = 1;
         robot->steps++;
-        gridworld_explorer_forget(&robot->explorer);
     }
     return 0;
 }

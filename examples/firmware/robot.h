@@ -8,14 +8,12 @@
 #ifndef FIRMWARE_ROBOT_H
 #define FIRMWARE_ROBOT_H
 
-#include "explorer.h"
 #include "settings.h"
 
 struct robot {
     rlvc_agent *agent;
     gridworld world;  /* where it explores */
     gridworld patrol; /* and where it works */
-    gridworld_explorer explorer;
     unsigned char percept[PERCEPT_BYTES];
     uint8_t learning; /* a learning step is under way */
     uint8_t finished; /* the last tick has finished one */

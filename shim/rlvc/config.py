@@ -15,6 +15,7 @@ Criterion = Literal["returns", "residual"]
 Score = Literal["gain", "gini", "chi2"]
 Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa"]
 Untried = Literal["excluded", "optimistic"]
+Explore = Literal["uniform", "directed"]
 
 # Field: its names, in the order of the constants of agent.h.
 CHOICES: dict[str, tuple[str, ...]] = {
@@ -22,6 +23,7 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "score": ("gain", "gini", "chi2"),
     "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa"),
     "untried": ("excluded", "optimistic"),
+    "explore": ("uniform", "directed"),
 }
 
 
@@ -63,6 +65,10 @@ class Config:
         Whether a class is aliased, too, if what follows the same action differs, even while all
         rewards are alike (residual criterion; the candidates must fit into ``features_at_once``).
         None: for up to 64 bits yes, else no.
+    explore : {"directed", "uniform"}
+        How to explore: one action in two leads to the nearest class-action pair that was little tried,
+        the other is drawn with preference for what was seldom tried in the class; or all alike, as
+        published.
     discount : float
         gamma of equation (1), [0, 1].
     epsilon : float
@@ -98,6 +104,7 @@ class Config:
     untried: Untried = "excluded"
     continuing: bool = False
     successors: bool | None = None
+    explore: Explore = "directed"
     discount: float = 0.9
     epsilon: float = 0.9
     alpha: float = 0.0001

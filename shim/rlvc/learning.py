@@ -22,10 +22,7 @@ from .results import CHOICE
 if TYPE_CHECKING:
     import gymnasium
 
-Exploration = Literal["directed", "random"]
-
 _WARM_UP = 1000  # observations from which a Box gets its thresholds
-_ENOUGH = 8  # tries of a class-action pair, after which more are no longer sought
 _CAPACITY_MAX = 1_000_000
 
 
@@ -144,38 +141,6 @@ def _actions(space: Any) -> tuple[int, int]:
     if not 1 <= space.n <= 255:
         raise SpaceError(f"an agent has at most 255 actions, and {space} has {space.n}")
     return int(space.n), int(space.start)
-
-
-class _Explorer:
-    """Directs exploration to class-action pairs that were seldom tried.
-
-    An action that was tried n times in its class, n at most 8, is drawn with the weight (1 + n)^-4.
-    """
-
-    def __init__(self, agent: Agent, seed: int, kind: Exploration) -> None:
-        if kind not in ("directed", "random"):
-            raise ConfigError(f"explore: {kind!r} is none of directed, random")
-        self.agent = agent
-        self.random = np.random.default_rng([seed, 1])
-        self.directed = kind == "directed"
-        self.refresh()
-
-    def refresh(self) -> None:
-        self.tried = np.minimum(self.agent.samples.astype(np.int64), _ENOUGH)
-
-    def direct(self, percepts: Any, choices: npt.NDArray[Any]) -> None:
-        """Change the choices that explore."""
-        if not self.directed:
-            return
-        classes = self.agent.predict(percepts).class_id
-        for i in range(len(choices)):
-            tried = self.tried[classes[i]]
-            if not choices[i]["exploited"]:
-                weights = np.cumsum((1.0 + tried) ** -4.0)
-                drawn = int(np.searchsorted(weights, self.random.random() * weights[-1], "right"))
-                choices[i]["action"] = min(drawn, len(weights) - 1)
-            action = choices[i]["action"]
-            tried[action] = min(tried[action] + 1, _ENOUGH)
 
 
 class _Stream:
@@ -318,7 +283,7 @@ def _fill(run: Run, batch: Batch, transition: tuple[Any, ...]) -> int:
     return count
 
 
-def _collect(run: Run, learner: _Learner, explorer: _Explorer) -> Iterator[None]:
+def _collect(run: Run, learner: _Learner) -> Iterator[None]:
     """Interact; yields whenever a learning step is due."""
     stream, agent = learner.stream, run.agent
     size = agent.domain.percept_bytes
@@ -333,7 +298,6 @@ def _collect(run: Run, learner: _Learner, explorer: _Explorer) -> Iterator[None]
             choices = batch.act(len(live))
         else:
             choices = np.array([agent.act()], CHOICE)
-        explorer.direct(percepts, choices)
         actions = np.zeros(stream.count, np.int64)
         actions[live] = choices["action"]
         transition = learner.transition(actions)
@@ -409,11 +373,10 @@ def default_config(
         "classes": 512,
         "seed": seed,
         "discount": 0.99,
-        "epsilon": 1.0,
         "tolerance": 0.001,
     }
     if changes.get("criterion") == "returns":
-        fields |= {"epsilon": 0.8, "alpha_known": 0.0001}
+        fields |= {"epsilon": 0.8, "alpha_known": 0.0001, "explore": "uniform"}
     if real:
         fields["successors"] = False
     try:
@@ -429,7 +392,6 @@ def learn(
     encoder: Encoder | None = None,
     every: int | None = None,
     seed: int | None = None,
-    explore: Exploration = "directed",
     thresholds: int = 15,
     progress: bool = False,
     callback: Callable[[Run], object] | None = None,
@@ -452,8 +414,6 @@ def learn(
         Interactions from one learning step to the next. None: a hundredth of all, at least 100.
     seed : int or None
         Of the environment and of all choices: the same seed gives the same tree. None: any.
-    explore : {"directed", "random"}
-        How to explore: with preference for actions seldom tried in their class, or evenly.
     thresholds : int
         For each element of a Box, at most.
     progress : bool
@@ -462,7 +422,7 @@ def learn(
         Called with the run after each learning step; if it returns True, learning ends.
     **config
         Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
-        million), ``classes`` is 512, ``discount`` 0.99, ``epsilon`` 1 and ``tolerance`` 0.001.
+        million), ``classes`` is 512, ``discount`` 0.99 and ``tolerance`` 0.001.
 
     Returns
     -------
@@ -507,7 +467,7 @@ def learn(
         _store(run, percepts, transition, choices, resume=False)
     bar = _bar(interactions, progress)
     try:
-        _learn(run, learner, _Explorer(run.agent, seed, explore), bar, callback)
+        _learn(run, learner, bar, callback)
     except KeyboardInterrupt:
         run.interrupted = True
     finally:
@@ -519,15 +479,13 @@ def learn(
 def _learn(
     run: Run,
     learner: _Learner,
-    explorer: _Explorer,
     bar: Any,
     callback: Callable[[Run], object] | None,
 ) -> None:
     if not learner.stream.vector:
         run.agent.begin(run.encoder.encode(learner.stream.current))  # type: ignore[union-attr]
-    for _ in _collect(run, learner, explorer):
+    for _ in _collect(run, learner):
         splits = run.agent.learn().splits
-        explorer.refresh()
         _note(run, learner, splits, bar)
         if callback is not None and callback(run) is True:
             return

@@ -48,6 +48,7 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.score = l->score;
     agent->config.untried = l->solver % 2u;
     agent->config.epsilon = l->criterion == RLVC_CRITERION_RETURNS ? 0.5f : 0.9f;
+    agent->config.explore = l->criterion == RLVC_CRITERION_RESIDUAL; /* directed, or uniform */
     agent->config.capacity = 160;
     agent->config.alpha_known = 0.3f;
     agent->config.successors = l->form != OWN_ORACLE && l->score != RLVC_SCORE_GINI;
@@ -144,10 +145,10 @@ static void test_callbacks_call_back(void **state) {
     (void)state;
     for (int form = 0; form < FORMS; form++) {
         const learning l = {RLVC_CRITERION_RESIDUAL, RLVC_SOLVER_SARSA, RLVC_SCORE_GAIN, form};
-        prepare(&p, &l, 0);
+        prepare(&p, &l, 1);
         player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
         player_result_of(&p, &expected);
-        prepare(&p, &l, 0);
+        prepare(&p, &l, 1);
         p.faulty.agent = p.agent;
         player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
         player_result_of(&p, &got);

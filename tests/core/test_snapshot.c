@@ -51,6 +51,8 @@ static void prepare(const kind *k) {
     p.config.criterion = k->criterion;
     p.config.solver = k->solver;
     p.config.epsilon = k->criterion == RLVC_CRITERION_RETURNS ? 0.3f : 0.9f;
+    if (k->criterion == RLVC_CRITERION_RETURNS && k->solver == RLVC_SOLVER_VALUE_ITERATION)
+        p.config.explore = RLVC_EXPLORE_UNIFORM;
     p.config.min_samples = 4;
     p.config.capacity = 900;
     p.config.alpha_known = 0.3f;
@@ -89,7 +91,7 @@ static void resume_and_compare(uint32_t budget, const rlvc_store *store) {
 
 static void test_resume_anywhere(void **state) {
     (void)state;
-    uint32_t phases[9] = {0};
+    uint32_t phases[10] = {0};
     for (int i = 0; i < FORMS * 8; i++) {
         const kind k = {(uint8_t)(i & 1), (uint8_t)(i >> 1 & 3), i >> 3};
         const uint32_t budget = 64u + 37u * (uint32_t)(i % 5);
@@ -109,7 +111,7 @@ static void test_resume_anywhere(void **state) {
             }
         }
     }
-    for (int phase = 0; phase < 8; phase++)
+    for (int phase = 0; phase < 9; phase++)
         assert_true(phases[phase] > 0);
 }
 
@@ -158,7 +160,7 @@ static void test_sequence_comes_round(void **state) {
 /* ------------------------------------------------------------------ damage */
 
 /* An agent in the middle of something, with a snapshot in slot 0 and a newer one in slot 1. */
-static rlvc_store two_snapshots(uint32_t interactions, uint32_t slices) {
+static rlvc_store two_snapshots(uint32_t interactions, uint32_t slices, uint32_t budget) {
     rlvc_progress progress;
     prepare_holding(interactions + 20u);
     rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
@@ -166,7 +168,7 @@ static rlvc_store two_snapshots(uint32_t interactions, uint32_t slices) {
     content_of(&p, &older);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     for (uint32_t i = 0; i < slices; i++)
-        assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+        assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
     content_of(&p, &newer);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     return store;
@@ -176,7 +178,7 @@ static rlvc_store two_snapshots(uint32_t interactions, uint32_t slices) {
 static void test_bit_flips(void **state) {
     (void)state;
     static content loaded;
-    rlvc_store store = two_snapshots(30, 9);
+    rlvc_store store = two_snapshots(30, 9, RLVC_BUDGET_MIN);
     for (uint32_t slot = 0; slot < 2; slot++) {
         unsigned char *snapshot = medium_slot(&store, slot);
         for (uint32_t bit = 0; bit < 8u * (slot ? newer.bytes : older.bytes); bit++) {
@@ -219,7 +221,7 @@ static void test_forgery(void **state) {
     (void)state;
     uint32_t accepted = 0, tried = 0;
     for (uint32_t slices = 0; slices < 60; slices += 5) {
-        rlvc_store store = two_snapshots(30, slices);
+        rlvc_store store = two_snapshots(30, slices, RLVC_BUDGET_MIN);
         unsigned char *snapshot = medium_slot(&store, 1);
         for (uint32_t bit = 8u * 16u; bit < 8u * (newer.bytes - 4u); bit += 1u + slices % 7u) {
             snapshot[bit / 8u] ^= (unsigned char)(1u << bit % 8u);
@@ -245,11 +247,13 @@ static rlvc_status load_forged(const rlvc_store *store, uint32_t at, uint64_t nu
     return status;
 }
 
+/* m and the last action, then for each class what leads on, and 4 counts. */
+#define EXPLORER_BYTES(classes) (2u + 6u * (classes))
 #define NOT_A_NUMBER 0x7fc00000u
 
 static void test_unsound_fields(void **state) {
     (void)state;
-    rlvc_store store = two_snapshots(90, 0);
+    rlvc_store store = two_snapshots(90, 0, RLVC_BUDGET_MIN);
     player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
     player_play(&p, 4);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
@@ -258,7 +262,8 @@ static void test_unsound_fields(void **state) {
     assert_true(classes > 1);
     const uint32_t tree = AT_SLOTS + SLOT_BYTES * p.agent->replay.count;
     const uint32_t values = tree + 4u + SPLIT_BYTES * (classes - 1u);
-    const uint32_t learner = values + classes * (8u + 12u * 4u);
+    const uint32_t learner = values + classes * (8u + 12u * 4u) + EXPLORER_BYTES(classes);
+    const uint32_t explorer = learner - EXPLORER_BYTES(classes);
     const struct {
         uint32_t at, number, bytes;
     } bad[] = {
@@ -288,7 +293,9 @@ static void test_unsound_fields(void **state) {
         {values + 56u + 6u, 1, 2}, /* ... or that was split from another */
         {values + 8u, NOT_A_NUMBER, 4},
         {values + 12u, NOT_A_NUMBER, 4},
-        {learner, 9, 1},       /* phase */
+        {explorer + 1u, 4, 1}, /* the last action */
+        {explorer + 2u, 4, 2}, /* an action that leads on */
+        {learner, 10, 1},      /* phase */
         {learner, 2, 1},       /* that this solver does not have */
         {learner + 30u, 1, 4}, /* a mark between two steps */
     };
@@ -305,10 +312,11 @@ static void test_unsound_learner(void **state) {
     (void)state;
     uint32_t phases = 0;
     for (uint32_t slices = 1; slices < 80; slices++) {
-        rlvc_store store = two_snapshots(90, slices);
+        rlvc_store store = two_snapshots(90, slices, 80); /* some of them end while SEEK is under way */
         const uint32_t learner = AT_SLOTS + SLOT_BYTES * p.agent->replay.count + 4u +
                                  SPLIT_BYTES * (p.agent->tree.classes - 1u) +
-                                 p.agent->tree.classes * (8u + 12u * 4u);
+                                 p.agent->tree.classes * (8u + 12u * 4u) +
+                                 EXPLORER_BYTES(p.agent->tree.classes);
         const uint8_t phase = p.agent->learner.phase;
         if (phase == 0)
             break;
@@ -334,7 +342,7 @@ static void test_unsound_learner(void **state) {
             assert_true(status == RLVC_E_DAMAGED || (phase == 4 && (word == 3 || word == 9)));
         }
     }
-    const uint32_t wanted = 1u << 1 | 1u << 3 | 1u << 4 | 1u << 5 | 1u << 6;
+    const uint32_t wanted = 1u << 1 | 1u << 3 | 1u << 4 | 1u << 5 | 1u << 6 | 1u << 7;
     assert_int_equal(phases & wanted, wanted);
 }
 
@@ -371,8 +379,8 @@ static void test_unsound_phases(void **state) {
         rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
         assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
         assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
-        const uint32_t learner = AT_SLOTS + 4u + 8u + 12u * 4u;
-        for (uint32_t phase = 1; phase < 10; phase++)
+        const uint32_t learner = AT_SLOTS + 4u + 8u + 12u * 4u + EXPLORER_BYTES(1u);
+        for (uint32_t phase = 1; phase < 11; phase++)
             assert_int_equal(load_forged(&store, learner, phase, 1), RLVC_E_DAMAGED);
     }
 }
@@ -400,7 +408,7 @@ static void test_resume_without_data(void **state) {
 
 static void test_versions_and_mismatches(void **state) {
     (void)state;
-    rlvc_store store = two_snapshots(30, 3);
+    rlvc_store store = two_snapshots(30, 3, RLVC_BUDGET_MIN);
     rlvc_snapshot_info info;
     assert_int_equal(load_forged(&store, AT_VERSION, 2, 4), RLVC_E_VERSION);
     assert_int_equal(load_forged(&store, AT_VERSION, 0, 4), RLVC_E_VERSION);
@@ -420,7 +428,7 @@ static void test_versions_and_mismatches(void **state) {
 
 static void test_arguments(void **state) {
     (void)state;
-    rlvc_store store = two_snapshots(30, 3), bad;
+    rlvc_store store = two_snapshots(30, 3, RLVC_BUDGET_MIN), bad;
     rlvc_snapshot_info info;
     rlvc_agent *agent;
     uint32_t bytes = 1;
@@ -466,7 +474,7 @@ static void test_arguments(void **state) {
 static void test_sizes(void **state) {
     (void)state;
     uint32_t bytes = 0, most = 0;
-    rlvc_store store = two_snapshots(30, 0);
+    rlvc_store store = two_snapshots(30, 0, RLVC_BUDGET_MIN);
     player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
     assert_int_equal(rlvc_snapshot_size(&p.config, &p.domain, &most), RLVC_OK);
     assert_int_equal(most, RLVC_SNAPSHOT_BYTES(4, 50, 5, 1, 2));
@@ -571,7 +579,7 @@ static void test_failing_domain(void **state) {
 
 static void test_callbacks_call_back(void **state) {
     (void)state;
-    rlvc_store store = two_snapshots(30, 3);
+    rlvc_store store = two_snapshots(30, 3, RLVC_BUDGET_MIN);
     m.agent = p.agent;
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     m.agent = NULL;
@@ -612,7 +620,7 @@ static void test_golden(void **state) {
     do {
         assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
         assert_false(progress.done);
-    } while (p.agent->learner.phase != 6 || p.agent->tree.classes < 2 ||
+    } while (p.agent->learner.phase != 7 || p.agent->tree.classes < 2 ||
              !p.agent->learner.searching);
     golden_snapshot("snapshot_search.bin");
     player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The class-level model against plain counting, and the batch solvers against value iteration in
- * double over dense tables. */
+/* The class-level model against plain counting, and the batch solvers, and the value of what was little
+ * tried, against value iteration in double over dense tables. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 
 #include "history.h"
 #include "model.h"
-#include "solver.h"
+#include "seek.h"
 
 #define CLASSES 7u
 #define PAIRS (CLASSES * HISTORY_ACTIONS)
@@ -241,6 +241,98 @@ static void test_forgotten_interactions(void **state) {
     }
 }
 
+/* ------------------------------------------------------------------ what was little tried */
+
+static uint8_t seen[PAIRS];
+static uint16_t lead[CLASSES];
+static rlvc_explorer explorer = {seen, lead, 0, RLVC_NO_ACTION};
+
+static rlvc_seeking seek_with(uint32_t max_sweeps, uint32_t slice) {
+    rlvc_seeking seeking;
+    const rlvc_solving solving = {sample, CLASSES, max_sweeps, 0.9f, 1e-3f};
+    rlvc_seeking_begin(&seeking, &solving, &values);
+    while (!seeking.done)
+        assert_in_range(rlvc_seeking_step(&seeking, &solving, &values, &explorer, slice), 1, slice);
+    return seeking;
+}
+
+static double plain_nearness(uint32_t pair, const double u[CLASSES]) {
+    double sum = 0.0;
+    for (uint32_t next = 0; next < CLASSES; next++)
+        sum += transitions[pair][next] * u[next];
+    return tried[pair] < (double)explorer.least ? 1.0 : 0.95 * sum / tried[pair];
+}
+
+/* What is found is at most the true nearness, and no more below it than ignored changes add up to. */
+static void check_nearness(uint32_t seed) {
+    const double ignored = 0.001 / (1.0 - 0.95);
+    double u[CLASSES] = {0.0};
+    for (int sweep = 0; sweep < 500; sweep++)
+        for (uint32_t c = 0; c < CLASSES; c++)
+            for (uint32_t a = 0; a < HISTORY_ACTIONS; a++)
+                u[c] = fmax(u[c], plain_nearness(c * HISTORY_ACTIONS + a, u));
+    for (uint32_t c = 0; c < CLASSES; c++) {
+        double found = (double)values.reward[c];
+        int right = lead[c] == RLVC_NOWHERE ? found <= 0.001
+                    : lead[c] == RLVC_HERE  ? found >= 1.0
+                    : lead[c] < HISTORY_ACTIONS
+                        ? found < 1.0 && plain_nearness(c * HISTORY_ACTIONS + lead[c], u) >= u[c] - ignored
+                        : 0;
+        if (!right || found > u[c] + 1e-5 || found < u[c] - ignored)
+            fail_msg("seed %u, m = %u: class %u is at %g by action %u, not at %g", seed,
+                     explorer.least, c, found, lead[c], u[c]);
+        for (uint32_t a = 0; a < HISTORY_ACTIONS; a++) {
+            uint32_t pair = c * HISTORY_ACTIONS + a;
+            assert_int_equal(seen[pair], tried[pair] < 255.0 ? (int)tried[pair] : 255);
+        }
+    }
+}
+
+static void test_seeking(void **state) {
+    (void)state;
+    uint32_t nowhere = 0, here = 0;
+    for (uint32_t seed = 1; seed < 9u; seed++) {
+        make_values(RLVC_UNTRIED_EXCLUDED);
+        make_database(seed, seed == 8u ? 399 : 40u * seed, seed % 2u == 0);
+        count_plainly();
+        for (uint32_t m = 0; m < 30u; m += 1u + m / 4u) {
+            float first[CLASSES];
+            explorer.least = (uint8_t)m;
+            for (uint32_t slice = 1; slice < 1000u; slice = slice * 9u + 1u) {
+                build_model(RLVC_BUDGET_MIN);
+                rlvc_seeking seeking = seek_with(10000, slice);
+                assert_true(seeking.sweeps < 10000);
+                memcpy(slice == 1u ? first : values.reward, values.reward, sizeof first);
+                assert_memory_equal(values.reward, first, sizeof first);
+            }
+            check_nearness(seed);
+            for (uint32_t c = 0; c < CLASSES; c++) {
+                nowhere += lead[c] == RLVC_NOWHERE;
+                here += lead[c] == RLVC_HERE;
+            }
+        }
+    }
+    assert_true(nowhere > 50 && here > 50);
+}
+
+/* Sweeps run out; and a table of counts that is not there is not written. */
+static void test_seeking_briefly(void **state) {
+    (void)state;
+    make_values(RLVC_UNTRIED_EXCLUDED);
+    make_database(4, 300, 0);
+    count_plainly();
+    explorer.least = 14;
+    memset(seen, 77, sizeof seen);
+    explorer.seen = NULL;
+    for (uint32_t sweeps = 1; sweeps < 3u; sweeps++) {
+        build_model(RLVC_BUDGET_UNBOUNDED);
+        assert_int_equal(seek_with(sweeps, 5).sweeps, sweeps);
+    }
+    explorer.seen = seen;
+    for (uint32_t pair = 0; pair < PAIRS; pair++)
+        assert_int_equal(seen[pair], 77);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_model),
@@ -248,6 +340,8 @@ int main(void) {
         cmocka_unit_test(test_no_discount),
         cmocka_unit_test(test_the_end),
         cmocka_unit_test(test_forgotten_interactions),
+        cmocka_unit_test(test_seeking),
+        cmocka_unit_test(test_seeking_briefly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@ import pytest
 GOLDEN = pathlib.Path(__file__).resolve().parents[1] / "golden"
 
 
-@pytest.mark.parametrize("name, phase", [("snapshot_idle.bin", 0), ("snapshot_search.bin", 6)])
+@pytest.mark.parametrize("name, phase", [("snapshot_idle.bin", 0), ("snapshot_search.bin", 7)])
 def test_golden(name, phase):
     data = (GOLDEN / name).read_bytes()
     at = 0
@@ -27,7 +27,7 @@ def test_golden(name, phase):
     percept_bytes, feature_bytes = take("II")
     actions, capacity, classes_max = take("III")
     take("IIII")
-    assert take("8B")[5:] == (0, 0, 0)
+    assert take("8B")[5:] == (0, 1, 0)
     discount, epsilon = take("ff")
     take("5f")
     assert (percept_bytes, feature_bytes, actions, capacity, classes_max) == (1, 2, 4, 100, 5)
@@ -47,6 +47,11 @@ def test_golden(name, phase):
         assert policy < actions and trial < actions
         for _ in range(actions):
             take("ffI")
+    least, last = take("BB")
+    assert least in (0, 3, 5) and last < actions
+    for _ in range(classes):
+        assert take("H") in (*range(actions), 65534, 65535)
+    assert sum(take("B") for _ in range(classes * actions)) >= stored
     assert take("BB")[0] == phase
     learner = take("7I10I")
     assert phase != 0 or not any(learner)

@@ -104,7 +104,7 @@ def test_vectors(mode, kind):
 
 def test_the_returns_criterion():
     run = rlvc.learn(
-        Line(), 40_000, every=4000, seed=1, discount=0.9, criterion="returns", explore="random"
+        Line(), 40_000, every=4000, seed=1, discount=0.9, criterion="returns", explore="uniform"
     )
     assert run.agent.statistics.step == 10
     assert run.evaluate(Line(), 30) == 1.0
@@ -265,13 +265,3 @@ def test_wrong_steps_in_the_maze():
     assert env.step(3)[1:4] == (100.0, True, False)
     with pytest.raises(gymnasium.error.ResetNeeded):
         env.step(0)
-
-
-def test_seldom_tried_actions_are_preferred():
-    agent = rlvc.Agent(3, 4, epsilon=1.0)
-    explorer = learning._Explorer(agent, 1, "directed")
-    explorer.tried[0] = [8, 8, 0, 8]
-    choices = np.zeros(1, rlvc.CHOICE)
-    explorer.direct(np.zeros((1, 1), np.uint8), choices)
-    assert choices["action"][0] == 2
-    assert explorer.tried[0].tolist() == [8, 8, 1, 8]

@@ -2,7 +2,6 @@
 #include "learner.h"
 
 #include "check.h"
-#include "exploration.h"
 #include "interrupt.h"
 
 #include "rlvc/rlvc.h"
@@ -30,8 +29,10 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint3
     config.classes = options.classes;
     config.seed = seed;
     config.criterion = options.criterion;
-    // The return of the paper's maze runs on through the teleport.
-    config.continuing = options.criterion == RLVC_CRITERION_RETURNS;
+    if (options.criterion == RLVC_CRITERION_RETURNS) { // as published
+        config.continuing = 1;                         // through the teleport
+        config.explore = RLVC_EXPLORE_UNIFORM;
+    }
     config.discount = options.gamma;
     config.epsilon = options.epsilon;
     config.alpha = options.alpha;
@@ -48,11 +49,6 @@ std::size_t size_of_agent(const rlvc_config &config, const rlvc_domain &domain) 
     }
     check(rlvc_agent_size(&config, &domain, &bytes), "rlvc_agent_size");
     return bytes;
-}
-
-// Under the returns criterion the agent explores as published.
-uint32_t explorer_classes(const Options &options) {
-    return options.criterion == RLVC_CRITERION_RESIDUAL ? options.classes : 0;
 }
 
 // The agent in its block, the world, and the record of what happens.
@@ -77,7 +73,6 @@ class Learner {
     const Optimum &optimum_;
     std::unique_ptr<uint64_t[]> memory_;
     rlvc_agent *agent_ = nullptr; // in memory_
-    Explorer explorer_;           // only asked under the residual criterion
     gridworld world_{};
     std::vector<unsigned char> percept_;
     uint64_t interactions_ = 0;
@@ -86,8 +81,7 @@ class Learner {
 
 Learner::Learner(const Options &options, const gridworld_maze &maze, const Optimum &optimum,
                  uint32_t seed)
-    : options_(options), maze_(maze), optimum_(optimum),
-      explorer_(explorer_classes(options), seed) {
+    : options_(options), maze_(maze), optimum_(optimum) {
     const rlvc_domain domain = make_domain(options, maze);
     const rlvc_config config = make_config(options, domain, seed);
     const std::size_t bytes = size_of_agent(config, domain);
@@ -106,16 +100,13 @@ Learner::Learner(const Options &options, const gridworld_maze &maze, const Optim
     check(rlvc_begin(agent_, percept_.data()), "rlvc_begin");
     result_.seed = seed;
     result_.cells = maze.free_cells;
-    result_.memory_bytes = bytes + explorer_.bytes();
+    result_.memory_bytes = bytes;
 }
 
 void Learner::interact() {
     rlvc_choice choice;
     float reward = 0.0f;
     check(rlvc_act(agent_, &choice), "rlvc_act");
-    if (options_.criterion == RLVC_CRITERION_RESIDUAL) {
-        explorer_.direct(agent_, percept_.data(), choice);
-    }
     const bool over = gridworld_step(&world_, choice.action, &reward) == 1;
     if (over) {
         check(rlvc_observe(agent_, choice, reward, nullptr, RLVC_TERMINATED), "rlvc_observe");
@@ -145,7 +136,6 @@ StepRecord Learner::learn() {
         look_for_interrupt();
         check(rlvc_learn(agent_, slice, &progress), "rlvc_learn");
     } while (!progress.done);
-    explorer_.forget();
     rlvc_statistics statistics;
     check(rlvc_stats(agent_, &statistics), "rlvc_stats");
     if (statistics.refused > 0) {
@@ -250,6 +240,5 @@ RunResult learn_maze(const Options &options, const gridworld_maze &maze, const O
 
 std::size_t learner_bytes(const Options &options, const gridworld_maze &maze) {
     const rlvc_domain domain = make_domain(options, maze);
-    return size_of_agent(make_config(options, domain, options.seed), domain) +
-           Explorer(explorer_classes(options), options.seed).bytes();
+    return size_of_agent(make_config(options, domain, options.seed), domain);
 }

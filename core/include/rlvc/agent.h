@@ -46,6 +46,12 @@ typedef struct rlvc_agent rlvc_agent;
 #define RLVC_UNTRIED_EXCLUDED 0u   /* it does not count in the maximum over actions */
 #define RLVC_UNTRIED_OPTIMISTIC 1u /* config.optimistic_value */
 
+/* config.explore: which action is tried where the greedy one is not taken. */
+#define RLVC_EXPLORE_UNIFORM 0u  /* any, all alike, as published */
+#define RLVC_EXPLORE_DIRECTED 1u /* one in two leads to the nearest class-action pair that was little tried, and is
+                                    the greedy one where there is none; the other is drawn with preference for what was
+                                    seldom tried in the class, and for the action before (SPEC.md) */
+
 /* Chosen once, copied by rlvc_agent_init. Start from rlvc_config_default. */
 typedef struct rlvc_config {
     uint32_t actions;          /* how many actions, [1, 255]; no default */
@@ -73,7 +79,8 @@ typedef struct rlvc_config {
                                   alike (residual criterion only; the candidates of a class must fit
                                   into features_at_once; not with an own oracle). Default 1 for bits, if
                                   there are no more than 64, else 0 */
-    uint8_t reserved[2];       /* 0 */
+    uint8_t explore;           /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
+    uint8_t reserved;          /* 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
     float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
     float alpha;               /* a split by a feature that is new to the tree is kept if its p-value,
@@ -133,8 +140,8 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
 #define RLVC_VALUES_BYTES(classes, actions)                                                        \
     (RLVC_ROUND_UP_8((size_t)(classes) * (actions) * 4u) * 3u +                                    \
      RLVC_ROUND_UP_8(((size_t)(classes) * (actions) + 1u) * 4u) +                                  \
-     RLVC_ROUND_UP_8((size_t)(classes) * 4u) + RLVC_ROUND_UP_8((size_t)(classes) * 2u) +           \
-     RLVC_ROUND_UP_8(classes) * 2u)
+     RLVC_ROUND_UP_8((size_t)(classes) * 4u) + RLVC_ROUND_UP_8((size_t)(classes) * 2u) * 2u +      \
+     RLVC_ROUND_UP_8((size_t)(classes) * (actions)) + RLVC_ROUND_UP_8(classes) * 2u)
 /* and the samples, cutpoints and bit columns of the search for a split. */
 #define RLVC_SEARCH_BYTES(actions, capacity, feature_bytes, features_at_once)                      \
     (((size_t)(capacity) + 1u) * 8u + RLVC_SEARCH_WORDS(actions, capacity) * 8u +        \
@@ -176,8 +183,8 @@ RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
 
 /* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon a
  * run of k + 1 greedy actions begins (of one under the residual criterion), as section 4.2.1 asks;
- * otherwise one action is drawn at random. Each call is a new decision. O(depth of the tree) calls of
- * exhibits().
+ * otherwise one action explores, as config.explore says. Each call is a new decision, of which directed exploration
+ * takes note. O(actions), and O(depth of the tree) calls of exhibits().
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_CALLBACK. */
 RLVC_API rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice);
 

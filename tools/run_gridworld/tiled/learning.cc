@@ -2,7 +2,6 @@
 #include "learning.h"
 
 #include "../check.h"
-#include "../exploration.h"
 #include "../interrupt.h"
 
 #include <algorithm>
@@ -41,7 +40,6 @@ class Run {
     uint32_t classes_max_;
     std::unique_ptr<uint64_t[]> memory_;
     rlvc_agent *agent_ = nullptr;
-    Explorer explorer_;
     gridworld world_{};
     std::mt19937 random_;
     const void *percept_ = nullptr;
@@ -56,13 +54,16 @@ Run::Run(const TiledOptions &options, const gridworld_maze &maze, const Optimum 
          Gallery &gallery, uint32_t seed)
     : options_(options), maze_(maze), optimum_(optimum), gallery_(gallery),
       domain_(gallery.domain()), classes_max_(classes_for(options, maze)),
-      explorer_(classes_max_, seed), random_(seed) {
+      random_(seed) {
     check(rlvc_config_default(&config_, &domain_, GRIDWORLD_ACTIONS), "rlvc_config_default");
     config_.capacity = options.interactions;
     config_.classes = classes_max_;
     config_.seed = seed;
     config_.criterion = options.criterion;
-    config_.continuing = options.criterion == RLVC_CRITERION_RETURNS;
+    if (options.criterion == RLVC_CRITERION_RETURNS) { // as published
+        config_.continuing = 1;
+        config_.explore = RLVC_EXPLORE_UNIFORM;
+    }
     config_.discount = options.gamma;
     config_.epsilon = options.epsilon;
     config_.alpha = options.alpha;
@@ -112,9 +113,6 @@ void Run::collect(uint64_t count) {
         rlvc_choice choice;
         float reward = 0.0f;
         check(rlvc_act(agent_, &choice), "rlvc_act");
-        if (options_.criterion == RLVC_CRITERION_RESIDUAL) {
-            explorer_.direct(agent_, static_cast<const unsigned char *>(percept_), choice);
-        }
         const bool over = gridworld_step(&world_, choice.action, &reward) == 1;
         if (over) {
             check(rlvc_observe(agent_, choice, reward, nullptr, RLVC_TERMINATED), "rlvc_observe");
@@ -140,7 +138,6 @@ void Run::learn() {
         check(rlvc_learn(agent_, slice, &progress), "rlvc_learn");
     } while (!progress.done);
     result_.seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    explorer_.forget();
 }
 
 uint32_t Run::classes() const {

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* Directed exploration: see explore.h. */
+#include "explore.h"
+
+#define ENOUGH 8u
+#define PERSISTENCE 4.0f
+#define LEAST_MIN 3u
+#define MEAN_PARTS 4u
+
+void rlvc_explorer_carve(rlvc_explorer *explorer, rlvc_arena *arena, const rlvc_config *config) {
+    uint64_t pairs = (uint64_t)config->classes * config->actions;
+    explorer->seen = rlvc_arena_carve(arena, pairs, sizeof *explorer->seen);
+    explorer->lead = rlvc_arena_carve(arena, config->classes, sizeof *explorer->lead);
+}
+
+void rlvc_explorer_clear(rlvc_explorer *explorer, uint32_t actions) {
+    for (uint32_t a = 0; a < actions; a++)
+        explorer->seen[a] = 0;
+    explorer->lead[0] = RLVC_NOWHERE;
+    explorer->least = 0;
+    explorer->last = RLVC_NO_ACTION;
+}
+
+static uint8_t *seen_in(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id) {
+    return explorer->seen + (size_t)class_id * actions;
+}
+
+void rlvc_explorer_inherit(rlvc_explorer *explorer, uint32_t actions, uint32_t new_class,
+                           uint32_t old_class) {
+    for (uint32_t a = 0; a < actions; a++)
+        seen_in(explorer, actions, new_class)[a] = seen_in(explorer, actions, old_class)[a];
+    explorer->lead[new_class] = explorer->lead[old_class];
+}
+
+uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs) {
+    uint32_t least = interactions / MEAN_PARTS / pairs;
+    least = least > LEAST_MIN ? least : LEAST_MIN;
+    return (uint8_t)(least < UINT8_MAX ? least : UINT8_MAX);
+}
+
+/* w(a). */
+static float weight(const rlvc_explorer *explorer, uint32_t n, uint32_t action) {
+    static const float weight_of[ENOUGH + 1u] = {
+        1.0f,           1.0f / 16.0f,   1.0f / 81.0f,   1.0f / 256.0f, 1.0f / 625.0f,
+        1.0f / 1296.0f, 1.0f / 2401.0f, 1.0f / 4096.0f, 1.0f / 6561.0f}; /* (1 + n)^-4 */
+    float alone = weight_of[n < ENOUGH ? n : ENOUGH];
+    return action == explorer->last ? PERSISTENCE * alone : alone;
+}
+
+static uint32_t draw(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
+                     rlvc_rng *rng) {
+    const uint8_t *seen = seen_in(explorer, actions, class_id);
+    float sum = 0.0f;
+    for (uint32_t a = 0; a < actions; a++)
+        sum += weight(explorer, seen[a], a);
+    float left = rlvc_rng_uniform(rng) * sum;
+    uint32_t action = 0;
+    while (action + 1u < actions && left >= weight(explorer, seen[action], action)) {
+        left -= weight(explorer, seen[action], action);
+        action++;
+    }
+    return action;
+}
+
+/* The action that goes after little-tried pairs. */
+static uint32_t seek(const rlvc_explorer *explorer, const rlvc_values *values, uint32_t class_id,
+                     rlvc_rng *rng) {
+    const uint8_t *seen = seen_in(explorer, values->actions, class_id);
+    uint32_t least = 0, lead = explorer->lead[class_id];
+    for (uint32_t a = 1; a < values->actions; a++)
+        least = seen[a] < seen[least] ? a : least;
+    if (seen[least] < explorer->least)
+        return least;
+    if (lead == RLVC_HERE)
+        return draw(explorer, values->actions, class_id, rng);
+    return lead == RLVC_NOWHERE ? values->policy[class_id] : lead;
+}
+
+uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, const rlvc_values *values,
+                              uint32_t class_id, rlvc_rng *rng) {
+    if (explorer->least > 0 && rlvc_rng_uniform(rng) < 0.5f)
+        return seek(explorer, values, class_id, rng);
+    return draw(explorer, values->actions, class_id, rng);
+}
+
+void rlvc_explorer_note(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
+                        uint32_t action) {
+    uint8_t *seen = seen_in(explorer, actions, class_id) + action;
+    *seen = (uint8_t)(*seen + (*seen < UINT8_MAX));
+    explorer->last = (uint8_t)action;
+}
+
+int rlvc_explorer_check(const rlvc_explorer *explorer, uint32_t actions, uint32_t classes) {
+    if (explorer->last != RLVC_NO_ACTION && explorer->last >= actions)
+        return 0;
+    for (uint32_t c = 0; c < classes; c++) {
+        if (explorer->lead[c] < RLVC_HERE && explorer->lead[c] >= actions)
+            return 0;
+    }
+    return 1;
+}
