@@ -6,6 +6,7 @@
 #include "rlvc/bits.h"
 #include "compact.h"
 #include "export_descriptors.h"
+#include "export_tree.h"
 #include "state.h"
 
 #define TABLE_BITS_MAX 16u
@@ -164,11 +165,10 @@ static int is_identifier(const char *name) {
     return length > 0;
 }
 
-static void put_header(exporter *e, const rlvc_agent *agent, rlvc_export_info *info) {
-    const rlvc_domain *domain = &agent->domain;
+static void put_header(exporter *e, const rlvc_domain *domain, rlvc_export_info *info) {
     const int of_bits = domain->kind == RLVC_DOMAIN_BITS;
     const rlvc_descriptors *d = (const rlvc_descriptors *)domain->ctx;
-    info->leaves = agent->tree.classes;
+    info->leaves = e->c.tree->classes;
     info->compact = e->c.mixed + 1u;
     rlvc_compact_number(&e->c, "/* A policy learnt by rlvc: of ", info->leaves);
     rlvc_compact_number(&e->c, " classes ", info->compact);
@@ -184,24 +184,29 @@ static void put_header(exporter *e, const rlvc_agent *agent, rlvc_export_info *i
     rlvc_compact_string(&e->c, "\n#endif\n");
 }
 
+rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree, const uint8_t *policy,
+                             uint32_t actions, const char *name, rlvc_write write, void *ctx,
+                             rlvc_export_info *info) {
+    if (!is_identifier(name))
+        return RLVC_E_RANGE;
+    if (domain->kind != RLVC_DOMAIN_BITS && domain->kind != RLVC_DOMAIN_DESCRIPTORS)
+        return RLVC_E_CONFIG;
+    rlvc_export_info unwanted;
+    exporter e = {{{write, ctx, RLVC_OK}, tree, policy, name, actions, 0}, 0, {0}};
+    rlvc_compact_count(&e.c);
+    put_header(&e, domain, info ? info : &unwanted);
+    return e.c.text.status;
+}
+
 rlvc_status rlvc_export_c(rlvc_agent *agent, const char *name, rlvc_write write, void *ctx,
                           rlvc_export_info *info) {
     if (!agent || !name || !write)
         return RLVC_E_NULL;
     if (agent->busy)
         return RLVC_E_REENTERED;
-    if (!is_identifier(name))
-        return RLVC_E_RANGE;
-    if (agent->domain.kind != RLVC_DOMAIN_BITS && agent->domain.kind != RLVC_DOMAIN_DESCRIPTORS)
-        return RLVC_E_CONFIG;
-    rlvc_export_info unwanted;
-    exporter e = {
-        {{write, ctx, RLVC_OK}, &agent->tree, agent->values.policy, name, agent->config.actions, 0},
-        0,
-        {0}};
     agent->busy = 1;
-    rlvc_compact_count(&e.c);
-    put_header(&e, agent, info ? info : &unwanted);
+    const rlvc_status status = rlvc_export_tree(&agent->domain, &agent->tree, agent->values.policy,
+                                                agent->config.actions, name, write, ctx, info);
     agent->busy = 0;
-    return e.c.text.status;
+    return status;
 }

@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree as text, DOT and JSON (section 4.3): one walk in pre-order, without recursion. */
-#include "rlvc/agent.h"
+#include "print.h"
 
 #include "state.h"
-#include "text.h"
 
-typedef struct printer {
-    rlvc_text text;
-    rlvc_agent *agent;
-} printer;
+typedef rlvc_printer printer;
 
 static void string(printer *p, const char *s) {
     rlvc_text_string(&p->text, s);
@@ -27,9 +23,8 @@ static void real(printer *p, const char *before, float x, uint32_t digits) {
 /* The name of the feature that an internal node tests. */
 static void name(printer *p, uint32_t node) {
     char text[RLVC_NAME_BYTES];
-    const rlvc_domain *domain = &p->agent->domain;
-    const void *feature =
-        rlvc_tree_feature(&p->agent->tree, rlvc_tree_split_of(&p->agent->tree, node));
+    const rlvc_domain *domain = p->domain;
+    const void *feature = rlvc_tree_feature(p->tree, rlvc_tree_split_of(p->tree, node));
     text[0] = '\0';
     if (p->text.status == RLVC_OK && domain->name(domain->ctx, feature, text, sizeof text) != 0)
         p->text.status = RLVC_E_CALLBACK;
@@ -48,8 +43,7 @@ static uint32_t tried(const rlvc_values *values, uint32_t class_id) {
 /* ------------------------------------------------------------------ text */
 
 static void print_text(printer *p, uint32_t node) {
-    const rlvc_tree *tree = &p->agent->tree;
-    const rlvc_values *values = &p->agent->values;
+    const rlvc_tree *tree = p->tree;
     for (uint32_t depth = rlvc_tree_depth(tree, node); depth > 0; depth--)
         string(p, "  ");
     if (node > 0)
@@ -60,24 +54,31 @@ static void print_text(printer *p, uint32_t node) {
         return;
     }
     uint32_t c = rlvc_tree_class(tree, node);
+    if (!p->values) {
+        number(p, "action ", p->policy[c]);
+        string(p, "\n");
+        return;
+    }
     number(p, "class ", c);
-    number(p, ": action ", values->policy[c]);
-    real(p, ", value ", values->value[c], 6);
-    number(p, ", ", tried(values, c));
+    number(p, ": action ", p->policy[c]);
+    real(p, ", value ", p->values->value[c], 6);
+    number(p, ", ", tried(p->values, c));
     string(p, " interactions\n");
 }
 
 /* ------------------------------------------------------------------ DOT */
 
 static void print_dot(printer *p, uint32_t node) {
-    const rlvc_tree *tree = &p->agent->tree;
-    const rlvc_values *values = &p->agent->values;
+    const rlvc_tree *tree = p->tree;
     number(p, "  n", node);
     if (rlvc_tree_is_leaf(tree, node)) {
         uint32_t c = rlvc_tree_class(tree, node);
-        number(p, " [shape=box, label=\"class ", c);
-        number(p, "\\naction ", values->policy[c]);
-        real(p, "\\nvalue ", values->value[c], 4);
+        string(p, " [shape=box, label=\"");
+        if (p->values)
+            number(p, "class ", c);
+        number(p, p->values ? "\\naction " : "action ", p->policy[c]);
+        if (p->values)
+            real(p, "\\nvalue ", p->values->value[c], 4);
         string(p, "\"];\n");
         return;
     }
@@ -94,9 +95,13 @@ static void print_dot(printer *p, uint32_t node) {
 /* ------------------------------------------------------------------ JSON */
 
 static void print_json_class(printer *p, uint32_t c) {
-    const rlvc_values *values = &p->agent->values;
+    const rlvc_values *values = p->values;
     number(p, ", \"class\": ", c);
-    number(p, ", \"action\": ", values->policy[c]);
+    number(p, ", \"action\": ", p->policy[c]);
+    if (!values) {
+        string(p, "}");
+        return;
+    }
     real(p, ", \"value\": ", values->value[c], 9);
     for (uint32_t a = 0; a < values->actions; a++)
         real(p, a ? ", " : ", \"q\": [", values->q[rlvc_values_pair(values, c, a)], 9);
@@ -107,12 +112,16 @@ static void print_json_class(printer *p, uint32_t c) {
 }
 
 static void print_json_test(printer *p, uint32_t node) {
-    const rlvc_tree *tree = &p->agent->tree;
+    const rlvc_tree *tree = p->tree;
     const rlvc_split *about = &tree->split[rlvc_tree_split_of(tree, node)].about;
     string(p, ", \"test\": \"");
     name(p, node);
     number(p, "\", \"absent\": ", tree->node[node]);
     number(p, ", \"present\": ", tree->node[node] + 1u);
+    if (!p->values) {
+        string(p, "}");
+        return;
+    }
     number(p, ", \"split\": ", rlvc_tree_split_of(tree, node));
     number(p, ", \"split_class\": ", about->class_id);
     number(p, ", \"step\": ", about->step);
@@ -128,8 +137,8 @@ static void print_json(printer *p, uint32_t node) {
     if (node > 0)
         string(p, ",\n");
     number(p, "  {\"node\": ", node);
-    if (rlvc_tree_is_leaf(&p->agent->tree, node))
-        print_json_class(p, rlvc_tree_class(&p->agent->tree, node));
+    if (rlvc_tree_is_leaf(p->tree, node))
+        print_json_class(p, rlvc_tree_class(p->tree, node));
     else
         print_json_test(p, node);
 }
@@ -145,8 +154,25 @@ static void print_nodes(printer *p, uint32_t format) {
             print_dot(p, node);
         else
             print_json(p, node);
-        node = rlvc_tree_walk(&p->agent->tree, node);
+        node = rlvc_tree_walk(p->tree, node);
     } while (node != 0 && p->text.status == RLVC_OK);
+}
+
+void rlvc_printer_run(printer *p, uint32_t format) {
+    if (format == RLVC_PRINT_DOT) {
+        string(p, "digraph rlvc {\n  node [fontname=\"sans-serif\"];\n");
+    } else if (format == RLVC_PRINT_JSON) {
+        number(p, "{\"classes\": ", p->tree->classes);
+        number(p, ", \"actions\": ", p->actions);
+        if (p->values)
+            number(p, ", \"step\": ", p->step);
+        string(p, ", \"nodes\": [\n");
+    }
+    print_nodes(p, format);
+    if (format == RLVC_PRINT_DOT)
+        string(p, "}\n");
+    else if (format == RLVC_PRINT_JSON)
+        string(p, "\n]}\n");
 }
 
 rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx) {
@@ -156,21 +182,10 @@ rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, voi
         return RLVC_E_REENTERED;
     if (format > RLVC_PRINT_JSON)
         return RLVC_E_RANGE;
-    printer p = {{write, ctx, RLVC_OK}, agent};
+    printer p = {{write, ctx, RLVC_OK}, &agent->domain, &agent->tree, agent->values.policy,
+                 &agent->values, agent->config.actions, agent->step};
     agent->busy = 1;
-    if (format == RLVC_PRINT_DOT) {
-        string(&p, "digraph rlvc {\n  node [fontname=\"sans-serif\"];\n");
-    } else if (format == RLVC_PRINT_JSON) {
-        number(&p, "{\"classes\": ", agent->tree.classes);
-        number(&p, ", \"actions\": ", agent->config.actions);
-        number(&p, ", \"step\": ", agent->step);
-        string(&p, ", \"nodes\": [\n");
-    }
-    print_nodes(&p, format);
-    if (format == RLVC_PRINT_DOT)
-        string(&p, "}\n");
-    else if (format == RLVC_PRINT_JSON)
-        string(&p, "\n]}\n");
+    rlvc_printer_run(&p, format);
     agent->busy = 0;
     return p.text.status;
 }

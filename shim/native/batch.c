@@ -18,6 +18,16 @@ rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *percepts, 
     return status;
 }
 
+rlvc_status rlvc_shim_policy_act(rlvc_policy *policy, const unsigned char *percepts, uint32_t bytes,
+                                 size_t count, uint32_t *actions, size_t *done) {
+    rlvc_status status = RLVC_OK;
+    size_t i = 0;
+    for (; i < count && status == RLVC_OK; i++)
+        status = rlvc_policy_act(policy, percepts + i * bytes, actions + i);
+    *done = status == RLVC_OK ? i : i - 1u;
+    return status;
+}
+
 rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done) {
     rlvc_status status = RLVC_OK;
     size_t i = 0;

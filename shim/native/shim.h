@@ -29,6 +29,12 @@ RLVC_API rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *p
                                        uint32_t bytes, size_t count, uint32_t *classes,
                                        uint32_t *actions, size_t *done);
 
+/* rlvc_policy_act for each of `count` percepts.
+ * @param actions [count] */
+RLVC_API rlvc_status rlvc_shim_policy_act(rlvc_policy *policy, const unsigned char *percepts,
+                                          uint32_t bytes, size_t count, uint32_t *actions,
+                                          size_t *done);
+
 /* Interactions, as arrays of `count` elements. */
 typedef struct rlvc_shim_log {
     const unsigned char *percepts, *next; /* `bytes` each */

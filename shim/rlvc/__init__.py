@@ -15,6 +15,7 @@ from .encode import Encoder
 from .errors import Error
 from .learning import Record, Run, learn
 from .logs import learn_from
+from .policy import Compaction, Policy
 from .results import CHOICE, Choice, Prediction, Progress, Split, Statistics
 
 __all__ = [
@@ -23,11 +24,13 @@ __all__ = [
     "Batch",
     "Bits",
     "Choice",
+    "Compaction",
     "Config",
     "Descriptors",
     "Domain",
     "Encoder",
     "Error",
+    "Policy",
     "Prediction",
     "Progress",
     "Record",

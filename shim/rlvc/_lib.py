@@ -167,6 +167,34 @@ class Split(c.Structure):
     ]
 
 
+class PolicyConfig(c.Structure):
+    """``rlvc_policy_config``."""
+
+    _fields_ = [
+        ("tolerance", c.c_float),
+        ("percepts", c.c_uint32),
+        ("entries", c.c_uint32),
+        ("reserved", c.c_uint32),
+        ("effort", c.c_uint64),
+    ]
+
+
+class PolicyInfo(c.Structure):
+    """``rlvc_policy_info``."""
+
+    _fields_ = [
+        ("classes", c.c_uint32),
+        ("collapsed", c.c_uint32),
+        ("leaves", c.c_uint32),
+        ("percepts", c.c_uint32),
+        ("features", c.c_uint32),
+        ("bytes", c.c_uint32),
+        ("exact", c.c_uint8),
+        ("as_agent", c.c_uint8),
+        ("reserved", c.c_uint8 * 2),
+    ]
+
+
 class Store(c.Structure):
     """``rlvc_store``."""
 
@@ -322,6 +350,8 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_samples": Samples,
     "rlvc_domain": Domain,
     "rlvc_descriptors": Descriptors,
+    "rlvc_policy_config": PolicyConfig,
+    "rlvc_policy_info": PolicyInfo,
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
@@ -368,6 +398,13 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_agent_check": (c.c_int, [_P]),
     # export.h
     "rlvc_export_c": (c.c_int, [_P, _P, WRITE, _P, _P]),
+    # policy.h, fewest.h
+    "rlvc_policy_default": (c.c_int, [_P, _P]),
+    "rlvc_policy_size": (c.c_int, [_P, _P, _P]),
+    "rlvc_policy_make": (c.c_int, [_P, _P, _P, c.c_size_t, _P, _P]),
+    "rlvc_policy_act": (c.c_int, [_P, _P, _P]),
+    "rlvc_policy_print": (c.c_int, [_P, _U32, WRITE, _P]),
+    "rlvc_policy_export_c": (c.c_int, [_P, _P, WRITE, _P, _P]),
     # snapshot.h
     "rlvc_snapshot_size": (c.c_int, [_P, _P, _P]),
     "rlvc_save": (c.c_int, [_P, _P]),
@@ -387,6 +424,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     # native/shim.h
     "rlvc_shim_layout": (c.POINTER(_Entry), []),
     "rlvc_shim_predict": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P, _P]),
+    "rlvc_shim_policy_act": (c.c_int, [_P, _P, _U32, c.c_size_t, _P, _P]),
     "rlvc_shim_act": (c.c_int, [_P, _P, _P]),
     "rlvc_shim_observe": (c.c_int, [_P, _P, _P]),
     "rlvc_shim_records_read": (c.c_int, [_P, c.c_size_t, _P, _P, _P]),

@@ -17,6 +17,7 @@ from .config import Config
 from .domain import Domain, Percept
 from .errors import RangeError, ReenteredError, RewardError, SnapshotError
 from .looking import Looking
+from .policy import Policy
 from .results import CHOICE, Choice, Progress
 from .snapshot import MemoryStore, read_file, write_file
 
@@ -315,6 +316,52 @@ class Agent(Looking):
             work += progress.work
             if progress.done or budget is not None:
                 return Progress(work, progress.rounds, progress.splits, bool(progress.done))
+
+    # -------------------------------------------------------------- deploying
+
+    def compact(
+        self,
+        tolerance: float | None = None,
+        *,
+        percepts: int | None = None,
+        entries: int | None = None,
+        effort: int | None = None,
+    ) -> Policy:
+        """Make the smallest policy that acts as well as the agent at all percepts in its ring.
+
+        Parameters
+        ----------
+        tolerance : float or None
+            An action is as good as the agent's if it was tried and its Q is no more than this below, in
+            units of return. 0: just the agent's action. None: twice the tolerance of the config, which
+            the solver cannot tell from nothing.
+        percepts : int or None
+            Distinct ones that there is room for, by the features that the tree tests. None: 16384, or as
+            many as the ring holds.
+        entries : int or None
+            Of the table in which subsets of percepts are kept. None: 65536.
+        effort : int or None
+            Words that may be looked at, about. None: 2**26, some seconds at worst.
+
+        Returns
+        -------
+        Policy
+            Its ``info`` says how many leaves there were, and are, and whether fewer are possible.
+
+        Raises
+        ------
+        RangeError, ConfigError
+            A number is out of range.
+        BlockError
+            There is no memory for it.
+
+        Notes
+        -----
+        The agent is unchanged. Source: ``core/include/rlvc/policy.h``.
+        """
+        return Policy(
+            self, tolerance=tolerance, percepts=percepts, entries=entries, effort=effort
+        )
 
     # -------------------------------------------------------------- outliving the process
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An agent's block of memory: how it is made, how its errors come out, and how it ends."""
+"""A block of memory: how an agent's is made, how errors come out, what C writes, and the end."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class Handle:
         self._address = agent.value
         self._memory_bytes = size.value
 
-    # -------------------------------------------------------------- errors, the end
+    # -------------------------------------------------------------- errors
 
     def _check(self, status: int, index: int | None = None) -> None:
         if status != _lib.OK:
@@ -129,6 +129,39 @@ class Handle:
             return int(getattr(_lib.long_call, name)(handle, *arguments))
         finally:
             self._handle = handle
+
+    # -------------------------------------------------------------- what C writes
+
+    def _printed(self, function: str, form: str) -> str:
+        forms = {"text": _lib.PRINT_TEXT, "dot": _lib.PRINT_DOT, "json": _lib.PRINT_JSON}
+        if form not in forms:
+            raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
+        parts: list[bytes] = []
+        self._check(self._long(function, forms[form], self._writer(parts), None))
+        return b"".join(parts).decode()
+
+    def _exported(self, function: str, name: str) -> str:
+        encoded = name.encode()
+        parts: list[bytes] = []
+        write = self._writer(parts)
+        self._check(self._long(function, encoded, write, None, None))
+        return b"".join(parts).decode()
+
+    def _writer(self, parts: list[bytes]) -> Any:
+        """Make a callback that appends what the library writes."""
+        guard = self._guard
+
+        def write(_ctx: int | None, text: int, size: int) -> int:
+            try:
+                parts.append(ctypes.string_at(text, size))
+            except BaseException as error:  # out of memory, or Ctrl-C
+                guard.error = error
+                return 1
+            return 0
+
+        return _lib.WRITE(write)
+
+    # -------------------------------------------------------------- the end
 
     def close(self) -> None:
         """Give the agent's memory back. Closing twice does nothing.

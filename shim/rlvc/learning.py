@@ -17,6 +17,7 @@ from .config import Config
 from .domain import Bits, Domain
 from .encode import Encoder, needs_samples
 from .errors import ConfigError, SpaceError
+from .policy import Policy
 from .results import CHOICE
 
 if TYPE_CHECKING:
@@ -77,12 +78,14 @@ class Run:
         self.interrupted = False
         self._start = start
 
-    def act(self, observation: Any) -> int:
+    def act(self, observation: Any, policy: Policy | None = None) -> int:
         """Give the learnt policy's action.
 
         Parameters
         ----------
         observation : element of the environment's space
+        policy : Policy or None
+            What ``run.agent.compact()`` made, to be asked instead.
 
         Returns
         -------
@@ -90,9 +93,16 @@ class Run:
             In the environment's space: ``Discrete.start`` is added.
         """
         percept = self.encoder.encode(observation) if self.encoder else observation
-        return int(self.agent.predict(percept).action) + self._start
+        action = self.agent.predict(percept).action if policy is None else policy.act(percept)
+        return int(action) + self._start
 
-    def evaluate(self, env: gymnasium.Env[Any, Any], episodes: int = 100, seed: int = 0) -> float:
+    def evaluate(
+        self,
+        env: gymnasium.Env[Any, Any],
+        episodes: int = 100,
+        seed: int = 0,
+        policy: Policy | None = None,
+    ) -> float:
         """Play with the learnt policy.
 
         Parameters
@@ -101,6 +111,8 @@ class Run:
         episodes : int
         seed : int
             Of the first reset.
+        policy : Policy or None
+            What ``run.agent.compact()`` made, to be played with instead.
 
         Returns
         -------
@@ -112,7 +124,9 @@ class Run:
             observation, _ = env.reset(seed=seed if episode == 0 else None)
             over = False
             while not over:
-                observation, reward, terminated, truncated, _ = env.step(self.act(observation))
+                observation, reward, terminated, truncated, _ = env.step(
+                    self.act(observation, policy)
+                )
                 total += float(reward)
                 over = terminated or truncated
         return total / episodes

@@ -193,26 +193,7 @@ class Looking(Handle):
         RangeError
             There is no such form.
         """
-        forms = {"text": _lib.PRINT_TEXT, "dot": _lib.PRINT_DOT, "json": _lib.PRINT_JSON}
-        if form not in forms:
-            raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
-        parts: list[bytes] = []
-        self._check(self._long("rlvc_print", forms[form], self._writer(parts), None))
-        return b"".join(parts).decode()
-
-    def _writer(self, parts: list[bytes]) -> Any:
-        """Make a callback that appends what the library writes."""
-        guard = self._guard
-
-        def write(_ctx: int | None, text: int, size: int) -> int:
-            try:
-                parts.append(ctypes.string_at(text, size))
-            except BaseException as error:  # out of memory, or Ctrl-C
-                guard.error = error
-                return 1
-            return 0
-
-        return _lib.WRITE(write)
+        return self._printed("rlvc_print", form)
 
     def export_c(self, name: str = "policy") -> str:
         """Give the learnt policy as a C99 header for a controller that only acts.
@@ -240,11 +221,7 @@ class Looking(Handle):
         ``-ffp-contract=off``, and the action is the agent's for every percept, bit for bit. Source:
         ``core/include/rlvc/export.h``.
         """
-        encoded = name.encode()
-        parts: list[bytes] = []
-        write = self._writer(parts)
-        self._check(self._long("rlvc_export_c", encoded, write, None, None))
-        return b"".join(parts).decode()
+        return self._exported("rlvc_export_c", name)
 
     def check(self) -> None:
         """Check every invariant of the agent's memory, which ``core/SPEC.md`` lists.

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: MIT
+"""A policy by itself, made as small as can be, to be deployed."""
+
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+import json
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _lib
+from .domain import Percept
+from .errors import BlockError, ConfigError
+from .handle import Handle
+
+if TYPE_CHECKING:
+    from .agent import Agent
+
+_policy_act = _lib.call.rlvc_policy_act
+_byref = ctypes.byref
+
+
+@dataclasses.dataclass(frozen=True)
+class Compaction:
+    """What became of an agent's tree.
+
+    Attributes
+    ----------
+    classes : int
+        Leaves of the agent's tree.
+    collapsed : int
+        Left, once every subtree whose leaves all act alike has become one.
+    leaves : int
+        Of the policy.
+    percepts : int
+        Distinct ones in the agent's ring that it was made for; 0 if there was no room for them.
+    features : int
+        Distinct ones that the agent's tree tests.
+    bytes : int
+        Of memory that the policy takes in C.
+    exact : bool
+        Whether no tree over these features has fewer leaves.
+    as_agent : bool
+        Whether it does what the agent does at every percept whatever, as nothing smaller was found than
+        the collapsed tree. If not, at a percept unlike all of the ring's it does what is done at the
+        percepts of the leaf that it comes to.
+    """
+
+    classes: int
+    collapsed: int
+    leaves: int
+    percepts: int
+    features: int
+    bytes: int
+    exact: bool
+    as_agent: bool
+
+
+class Policy(Handle):
+    """The smallest policy that acts as well as an agent at all percepts in its ring.
+
+    :meth:`rlvc.Agent.compact` makes one. It is independent of the agent, which may go on learning.
+
+    Attributes
+    ----------
+    info : Compaction
+        How many leaves there were, and are.
+
+    Notes
+    -----
+    A policy is used by one thread at a time. Source: ``core/include/rlvc/policy.h``.
+
+    Examples
+    --------
+    >>> from rlvc import Agent
+    >>> agent = Agent(3, 2)
+    >>> policy = agent.compact()
+    >>> policy.info.leaves, policy.act(bytes([5]))
+    (1, 0)
+    """
+
+    def __init__(self, agent: Agent, **changes: Any) -> None:
+        native, size = _lib.PolicyConfig(), ctypes.c_size_t()
+        agent._check(_lib.call.rlvc_policy_default(agent._handle, _byref(native)))
+        for field, value in changes.items():
+            if value is not None:
+                _set(native, field, value)
+        agent._check(_lib.call.rlvc_policy_size(agent._handle, _byref(native), _byref(size)))
+        try:
+            block = np.empty(size.value // 8 + 1, np.uint64)
+        except (MemoryError, ValueError):
+            raise BlockError(f"no memory for a block of {size.value} bytes") from None
+        policy, info = ctypes.c_void_p(), _lib.PolicyInfo()
+        place = (block.ctypes.data, size.value)
+        agent._check(
+            agent._long("rlvc_policy_make", _byref(native), *place, _byref(policy), _byref(info))
+        )
+        self._domain, self._config, self._guard = agent._domain, agent._config, agent._guard
+        self._native_domain = agent._native_domain
+        self._pack = agent._pack
+        self._block = block
+        self._handle = self._address = policy.value
+        self._memory_bytes = size.value
+        self._action = ctypes.c_uint32()
+        self._answer = _byref(self._action)
+        numbers = (getattr(info, field.name) for field in dataclasses.fields(Compaction)[:-2])
+        self.info = Compaction(*numbers, bool(info.exact), bool(info.as_agent))
+
+    def act(self, percept: Percept) -> int | npt.NDArray[np.uint32]:
+        """Give the action at a percept, or at each of an array of percepts.
+
+        Parameters
+        ----------
+        percept : bytes, or ndarray [*percept_shape] or [n, *percept_shape]
+            One percept, or n of them.
+
+        Returns
+        -------
+        int or ndarray of uint32, [n]
+
+        Raises
+        ------
+        PerceptError
+            Wrong size, dtype or shape, or not C-contiguous.
+        """
+        if self._domain.is_one(percept):
+            status = _policy_act(self._handle, self._pack(percept), self._answer)
+            if status:
+                self._fail(status)
+            return self._action.value
+        packed = self._domain.pack_many(percept)  # type: ignore[arg-type]
+        actions, done = np.empty(len(packed), np.uint32), ctypes.c_size_t()
+        status = self._long(
+            "rlvc_shim_policy_act",
+            packed.ctypes.data,
+            self._domain.percept_bytes,
+            len(packed),
+            actions.ctypes.data,
+            _byref(done),
+        )
+        if status:
+            self._fail(status, done.value)
+        return actions
+
+    @property
+    def tree(self) -> dict[str, Any]:
+        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
+        tree: dict[str, Any] = json.loads(self.print("json"))
+        return tree
+
+    def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
+        """Print the tree with the action of each leaf.
+
+        Parameters
+        ----------
+        form : {"text", "dot", "json"}
+            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            There is no such form.
+        """
+        return self._printed("rlvc_policy_print", form)
+
+    def export_c(self, name: str = "policy") -> str:
+        """Give the policy as a C99 header; see :meth:`rlvc.Agent.export_c`.
+
+        Parameters
+        ----------
+        name : str
+            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            ``name`` is no such identifier.
+        ConfigError
+            The domain is neither :class:`Bits` nor :class:`Descriptors`.
+        """
+        return self._exported("rlvc_policy_export_c", name)
+
+    def __repr__(self) -> str:
+        """Say what it is."""
+        return f"<rlvc.Policy of {self.info.leaves} leaves>"
+
+
+def _set(native: _lib.PolicyConfig, field: str, value: Any) -> None:
+    """Set a field of the config, which C checks again."""
+    try:
+        if field != "tolerance" and not 0 <= value < 2**32 * (2**32 if field == "effort" else 1):
+            raise ValueError
+        setattr(native, field, value)
+    except (TypeError, ValueError):
+        raise ConfigError(f"{field}: {value!r:.80} is out of range") from None
