@@ -184,9 +184,9 @@ static void put_header(exporter *e, const rlvc_domain *domain, rlvc_export_info 
     rlvc_compact_string(&e->c, "\n#endif\n");
 }
 
-rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree, const uint8_t *policy,
-                             uint32_t actions, const char *name, rlvc_write write, void *ctx,
-                             rlvc_export_info *info) {
+rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree,
+                             const uint8_t *policy, uint32_t actions, const char *name,
+                             rlvc_write write, void *ctx, rlvc_export_info *info) {
     if (!is_identifier(name))
         return RLVC_E_RANGE;
     if (domain->kind != RLVC_DOMAIN_BITS && domain->kind != RLVC_DOMAIN_DESCRIPTORS)

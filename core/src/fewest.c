@@ -38,10 +38,10 @@ typedef struct frame {
     uint32_t begin, end; /* the stretch */
     uint32_t middle;     /* its rows with the feature under trial stand from here on */
     uint32_t slot;
-    uint32_t limit;  /* a tree of more leaves is of no use */
-    uint32_t best;   /* leaves of the best tree so far; limit + 1 at first */
-    uint32_t root;   /* the feature at its root */
-    uint32_t bound;  /* the least sum of bounds among the features passed */
+    uint32_t limit;   /* a tree of more leaves is of no use */
+    uint32_t best;    /* leaves of the best tree so far; limit + 1 at first */
+    uint32_t root;    /* the feature at its root */
+    uint32_t bound;   /* the least sum of bounds among the features passed */
     uint32_t feature; /* under trial */
     glance side[2];   /* without and with it; looked at if `parted` */
     uint8_t parted;
@@ -57,19 +57,19 @@ typedef struct part {
 typedef struct fewest {
     const rlvc_fewest_task *task;
     uint32_t words;
-    uint32_t mask;   /* slots of the table - 1 */
-    uint32_t used;   /* of them */
-    uint32_t deep;   /* frames in use */
-    uint32_t leaves; /* of the tree so far */
-    uint32_t actions; /* the highest that a row allows, and 1 */
-    uint64_t left;   /* of the effort of this search */
-    uint8_t torn;    /* alike rows without a common action were met */
-    entry *table;    /* [mask + 1] */
-    uint64_t *key;   /* [mask + 1][2 * words] features shared, their values */
-    uint64_t *name;  /* [2 * words] the key of the stretch last looked at */
-    uint32_t *order; /* [rows] */
-    frame *frames;   /* [depth] */
-    part *todo;      /* [depth + 1] */
+    uint32_t mask;            /* slots of the table - 1 */
+    uint32_t used;            /* of them */
+    uint32_t deep;            /* frames in use */
+    uint32_t leaves;          /* of the tree so far */
+    uint32_t actions;         /* the highest that a row allows, and 1 */
+    uint64_t left;            /* of the effort of this search */
+    uint8_t torn;             /* alike rows without a common action were met */
+    entry *table;             /* [mask + 1] */
+    uint64_t *key;            /* [mask + 1][2 * words] features shared, their values */
+    uint64_t *name;           /* [2 * words] the key of the stretch last looked at */
+    uint32_t *order;          /* [rows] */
+    frame *frames;            /* [depth] */
+    part *todo;               /* [depth + 1] */
     rlvc_fewest_split *split; /* [rows - 1] */
     uint8_t *action;          /* [rows] */
 } fewest;
@@ -144,7 +144,8 @@ static int name(fewest *s, uint32_t begin, uint32_t end) {
         }
     }
     for (uint32_t w = 0; w < s->words; w++) {
-        any[w] = ~(any[w] ^ all[w]); /* shared; as no row has bits beyond its features, so are those */
+        any[w] =
+            ~(any[w] ^ all[w]); /* shared; as no row has bits beyond its features, so are those */
         parts |= any[w] != UINT64_MAX;
     }
     return parts;
@@ -212,8 +213,9 @@ static uint32_t put_apart(fewest *s, uint32_t begin, uint32_t end, uint32_t feat
 /* Begins to search for a tree of a stretch; its glance is new, so that the name is its own.
  * @return 0: the table is full, or the effort is spent. */
 static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, uint32_t limit) {
-    const frame fresh = {begin, end, begin, seen->slot, limit, limit + 1u, NONE, NONE, 0,
-                         {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0};
+    const frame fresh = {begin,      end,  begin, seen->slot, limit,
+                         limit + 1u, NONE, NONE,  0,          {{0, 0, 0}, {0, 0, 0}},
+                         0,          0,    0};
     entry *known = &s->table[seen->slot];
     if (known->leaves == 0) {
         if (s->used >= s->mask - s->mask / 8u)
@@ -234,7 +236,7 @@ static void leave(fewest *s) {
     if (f->root != NONE) {
         known->leaves = f->best;
         known->feature = f->root;
-    } else if (f->bound > known->leaves) {
+    } else {
         known->leaves = f->bound;
     }
 }
@@ -285,9 +287,7 @@ static int step(fewest *s) {
         return 1;
     }
     const uint32_t begin = side ? f->middle : f->begin, end = side ? f->end : f->middle;
-    f->side[side] = look(s, begin, end); /* what came between may have taken its place, or solved it */
-    if (f->side[side].exact || f->side[0].leaves + f->side[1].leaves >= f->best)
-        return 1;
+    f->side[side] = look(s, begin, end); /* for its name, and as its place may have been taken */
     f->under = side;
     f->entered = 1;
     return enter(s, begin, end, &f->side[side], f->best - 1u - f->side[1u - side].leaves);
@@ -374,7 +374,8 @@ static uint8_t lowest(uint64_t actions) {
 }
 
 /* The feature at the root of a stretch's tree. */
-static uint32_t root_of(fewest *s, uint32_t begin, uint32_t end, const glance *seen, uint8_t *exact) {
+static uint32_t root_of(fewest *s, uint32_t begin, uint32_t end, const glance *seen,
+                        uint8_t *exact) {
     if (seen->exact)
         return s->table[seen->slot].feature;
     if (search(s, begin, end)) {
@@ -403,7 +404,8 @@ static uint8_t grow(fewest *s) {
             const uint32_t feature = root_of(s, now.begin, now.end, &seen, &exact);
             const uint32_t middle = put_apart(s, now.begin, now.end, feature);
             const rlvc_fewest_split split = {now.leaf, feature};
-            const part present = {middle, now.end, s->leaves}, absent = {now.begin, middle, now.leaf};
+            const part present = {middle, now.end, s->leaves},
+                       absent = {now.begin, middle, now.leaf};
             s->split[s->leaves++ - 1u] = split;
             s->todo[parts++] = present;
             s->todo[parts++] = absent;

@@ -35,7 +35,7 @@ typedef struct maker {
     rlvc_policy *policy;
     rlvc_policy made; /* laid out, until there is a place for it */
     rlvc_fewest_task task;
-    uint64_t kept;    /* bytes of the policy itself */
+    uint64_t kept; /* bytes of the policy itself */
     uint64_t scratch_bytes;
     uint32_t index_mask; /* entries of the index - 1 */
     uint32_t words;      /* of a row */
@@ -175,8 +175,8 @@ static uint32_t find(const maker *m, const uint32_t *index) {
         hash ^= hash >> 32;
     }
     uint32_t at = (uint32_t)hash & m->index_mask;
-    while (index[at] != 0 && memcmp(m->row + (size_t)(index[at] - 1u) * m->words, row,
-                                    m->words * sizeof *row) != 0)
+    while (index[at] != 0 &&
+           memcmp(m->row + (size_t)(index[at] - 1u) * m->words, row, m->words * sizeof *row) != 0)
         at = (at + 1u) & m->index_mask;
     return at;
 }
@@ -250,8 +250,8 @@ static void take_collapsed(maker *m, const rlvc_compact *collapsed) {
 /* Makes the smaller of the two trees the policy's. */
 static rlvc_status choose(maker *m, rlvc_policy_info *info) {
     const rlvc_agent *agent = m->agent;
-    rlvc_compact collapsed = {{NULL, NULL, RLVC_OK}, &agent->tree, agent->values.policy, NULL,
-                              agent->config.actions, 0};
+    rlvc_compact collapsed = {
+        {NULL, NULL, RLVC_OK}, &agent->tree, agent->values.policy, NULL, agent->config.actions, 0};
     rlvc_fewest_tree found;
     int fit = 0;
     memset(&found, 0, sizeof found);
@@ -346,8 +346,7 @@ rlvc_status rlvc_policy_act(rlvc_policy *policy, const void *percept, uint32_t *
     if (policy->busy)
         return RLVC_E_REENTERED;
     policy->busy = 1;
-    const rlvc_status status =
-        rlvc_tree_classify(&policy->tree, &policy->domain, percept, &leaf);
+    const rlvc_status status = rlvc_tree_classify(&policy->tree, &policy->domain, percept, &leaf);
     policy->busy = 0;
     if (status == RLVC_OK)
         *action = policy->action[leaf];
@@ -361,8 +360,13 @@ rlvc_status rlvc_policy_print(rlvc_policy *policy, uint32_t format, rlvc_write w
         return RLVC_E_REENTERED;
     if (format > RLVC_PRINT_JSON)
         return RLVC_E_RANGE;
-    rlvc_printer p = {{write, ctx, RLVC_OK}, &policy->domain, &policy->tree, policy->action, NULL,
-                      policy->actions, 0};
+    rlvc_printer p = {{write, ctx, RLVC_OK},
+                      &policy->domain,
+                      &policy->tree,
+                      policy->action,
+                      NULL,
+                      policy->actions,
+                      0};
     policy->busy = 1;
     rlvc_printer_run(&p, format);
     policy->busy = 0;

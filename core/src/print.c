@@ -106,8 +106,7 @@ static void print_json_class(printer *p, uint32_t c) {
     for (uint32_t a = 0; a < values->actions; a++)
         real(p, a ? ", " : ", \"q\": [", values->q[rlvc_values_pair(values, c, a)], 9);
     for (uint32_t a = 0; a < values->actions; a++)
-        number(p, a ? ", " : "], \"samples\": [",
-               values->tried[rlvc_values_pair(values, c, a)]);
+        number(p, a ? ", " : "], \"samples\": [", values->tried[rlvc_values_pair(values, c, a)]);
     string(p, "]}");
 }
 
@@ -182,8 +181,8 @@ rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, voi
         return RLVC_E_REENTERED;
     if (format > RLVC_PRINT_JSON)
         return RLVC_E_RANGE;
-    printer p = {{write, ctx, RLVC_OK}, &agent->domain, &agent->tree, agent->values.policy,
-                 &agent->values, agent->config.actions, agent->step};
+    printer p = {{write, ctx, RLVC_OK}, &agent->domain,        &agent->tree, agent->values.policy,
+                 &agent->values,        agent->config.actions, agent->step};
     agent->busy = 1;
     rlvc_printer_run(&p, format);
     agent->busy = 0;

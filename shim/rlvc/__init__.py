@@ -13,6 +13,7 @@ from .config import Config
 from .domain import Bits, Descriptors, Domain
 from .encode import Encoder
 from .errors import Error
+from .fewest import Fewest, fewest
 from .learning import Record, Run, learn
 from .logs import learn_from
 from .policy import Compaction, Policy
@@ -30,6 +31,7 @@ __all__ = [
     "Domain",
     "Encoder",
     "Error",
+    "Fewest",
     "Policy",
     "Prediction",
     "Progress",
@@ -38,6 +40,7 @@ __all__ = [
     "Split",
     "Statistics",
     "__version__",
+    "fewest",
     "learn",
     "learn_from",
 ]

@@ -195,6 +195,32 @@ class PolicyInfo(c.Structure):
     ]
 
 
+class FewestTask(c.Structure):
+    """``rlvc_fewest_task``."""
+
+    _fields_ = [
+        ("row", c.c_void_p),
+        ("allowed", c.c_void_p),
+        ("rows", c.c_uint32),
+        ("features", c.c_uint32),
+        ("entries", c.c_uint32),
+        ("reserved", c.c_uint32),
+        ("effort", c.c_uint64),
+    ]
+
+
+class FewestTree(c.Structure):
+    """``rlvc_fewest_tree``."""
+
+    _fields_ = [
+        ("split", c.c_void_p),
+        ("action", c.c_void_p),
+        ("leaves", c.c_uint32),
+        ("exact", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
+    ]
+
+
 class Store(c.Structure):
     """``rlvc_store``."""
 
@@ -352,6 +378,8 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_descriptors": Descriptors,
     "rlvc_policy_config": PolicyConfig,
     "rlvc_policy_info": PolicyInfo,
+    "rlvc_fewest_task": FewestTask,
+    "rlvc_fewest_tree": FewestTree,
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
@@ -399,6 +427,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     # export.h
     "rlvc_export_c": (c.c_int, [_P, _P, WRITE, _P, _P]),
     # policy.h, fewest.h
+    "rlvc_fewest_size": (c.c_int, [_P, _P]),
+    "rlvc_fewest": (c.c_int, [_P, _P, c.c_size_t, _P]),
     "rlvc_policy_default": (c.c_int, [_P, _P]),
     "rlvc_policy_size": (c.c_int, [_P, _P, _P]),
     "rlvc_policy_make": (c.c_int, [_P, _P, _P, c.c_size_t, _P, _P]),

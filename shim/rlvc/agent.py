@@ -359,9 +359,7 @@ class Agent(Looking):
         -----
         The agent is unchanged. Source: ``core/include/rlvc/policy.h``.
         """
-        return Policy(
-            self, tolerance=tolerance, percepts=percepts, entries=entries, effort=effort
-        )
+        return Policy(self, tolerance=tolerance, percepts=percepts, entries=entries, effort=effort)
 
     # -------------------------------------------------------------- outliving the process
 

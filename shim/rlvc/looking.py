@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _lib
 from .batch import checked
 from .domain import Percept
-from .errors import ArrayError, RangeError
+from .errors import ArrayError
 from .handle import Handle
 from .results import Prediction, Split, Statistics
 

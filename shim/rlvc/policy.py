@@ -106,8 +106,9 @@ class Policy(Handle):
         self._memory_bytes = size.value
         self._action = ctypes.c_uint32()
         self._answer = _byref(self._action)
-        numbers = (getattr(info, field.name) for field in dataclasses.fields(Compaction)[:-2])
-        self.info = Compaction(*numbers, bool(info.exact), bool(info.as_agent))
+        fields = {field.name: getattr(info, field.name) for field in dataclasses.fields(Compaction)}
+        flags = {name: bool(fields[name]) for name in ("exact", "as_agent")}
+        self.info = Compaction(**(fields | flags))
 
     def act(self, percept: Percept) -> int | npt.NDArray[np.uint32]:
         """Give the action at a percept, or at each of an array of percepts.

@@ -208,7 +208,8 @@ static void test_refusals(void **unused) {
     assert_int_equal(rlvc_fewest(&q.task, memory, sizeof memory, &tree), RLVC_E_RANGE);
     assert_int_equal(rlvc_fewest_size(&p.task, &bytes), RLVC_OK);
     assert_int_equal(rlvc_fewest(&p.task, memory, bytes - 1u, &tree), RLVC_E_MEMORY);
-    assert_int_equal(rlvc_fewest(&p.task, (unsigned char *)memory + 4, bytes, &tree), RLVC_E_MEMORY);
+    assert_int_equal(rlvc_fewest(&p.task, (unsigned char *)memory + 4, bytes, &tree),
+                     RLVC_E_MEMORY);
 }
 
 /* Rows that need no test need no features. */

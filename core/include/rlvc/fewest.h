@@ -25,15 +25,17 @@ extern "C" {
 #define RLVC_FEWEST_WORDS(features) (((uint32_t)(features) + 63u) / 64u)
 
 typedef struct rlvc_fewest_task {
-    const uint64_t *row;     /* [rows][words]: feature f is bit f % 64 of word f / 64 of a row, the bits from
+    const uint64_t
+        *row; /* [rows][words]: feature f is bit f % 64 of word f / 64 of a row, the bits from
                                 `features` on are 0 */
     const uint64_t *allowed; /* [rows] bit a: action a is allowed. Not 0 */
     uint32_t rows;           /* [1, RLVC_FEWEST_ROWS_MAX] */
     uint32_t features;       /* [0, RLVC_FEWEST_FEATURES_MAX] */
-    uint32_t entries;        /* of the table of subsets, [2, RLVC_FEWEST_ENTRIES_MAX]; only the greatest power
+    uint32_t
+        entries; /* of the table of subsets, [2, RLVC_FEWEST_ENTRIES_MAX]; only the greatest power
                                 of two in it is used, and of that seven eighths */
-    uint32_t reserved;       /* 0 */
-    uint64_t effort;         /* words looked at, at most about so many for the whole, and for a part of the
+    uint32_t reserved; /* 0 */
+    uint64_t effort; /* words looked at, at most about so many for the whole, and for a part of the
                                 rows in proportion, [1, RLVC_FEWEST_EFFORT_MAX] */
 } rlvc_fewest_task;
 
@@ -44,10 +46,12 @@ typedef struct rlvc_fewest_split {
 } rlvc_fewest_split;
 
 typedef struct rlvc_fewest_tree {
-    const rlvc_fewest_split *split; /* [leaves - 1]: split j makes leaf j + 1; leaf 0 is there from the first */
-    const uint8_t *action;          /* [leaves] the lowest that all its rows allow */
+    const rlvc_fewest_split
+        *split; /* [leaves - 1]: split j makes leaf j + 1; leaf 0 is there from the first */
+    const uint8_t *action; /* [leaves] the lowest that all its rows allow */
     uint32_t leaves;
-    uint8_t exact; /* 1: no tree has fewer; 0: the table or the effort did not suffice for all of the rows,
+    uint8_t
+        exact; /* 1: no tree has fewer; 0: the table or the effort did not suffice for all of the rows,
                       so that those were parted greedily until it did */
     uint8_t reserved[3];
 } rlvc_fewest_tree;
