@@ -222,7 +222,7 @@ def optimal_actions(maze, gamma, slip):
     return {cell: {a for a in ACTIONS if q(cell, a) >= value[cell] - 1e-7} for cell in free}
 
 
-def check_run(run_report, gamma=0.9, slip=0.0):
+def check_run(run_report, gamma=0.9, slip=0.0, distractors=11):
     maze = run_report["maze"]
     best = optimal_actions(maze, gamma, slip)
     actions, classes = run_report["cell_actions"], run_report["cell_classes"]
@@ -239,6 +239,29 @@ def check_run(run_report, gamma=0.9, slip=0.0):
     assert run_report["cells"] == len(best)
     assert run_report["optimal_cells"] == optimal <= run_report["near_optimal_cells"] <= len(best)
     check_history(run_report)
+    check_policy(run_report, best, distractors)
+
+
+def check_policy(run_report, best, distractors):
+    """The small tree acts in each cell as well as it says, and no smaller one does."""
+    names = ("up", "right", "down", "left")
+    nodes = {node["node"]: node for node in run_report["policy"]["nodes"]}
+    assert run_report["policy_leaves"] == sum("action" in node for node in nodes.values())
+    assert run_report["policy_leaves"] <= run_report["classes"]
+    assert run_report["policy_optimal_cells"] <= run_report["policy_near_optimal_cells"]
+    if run_report["distractors_used"] > 0:
+        return
+    x_bits = (len(run_report["maze"][0]) - 1).bit_length()
+    optimal = 0
+    for (x, y), actions in best.items():
+        percept, node = x | y << x_bits + distractors, nodes[0]
+        while "action" not in node:
+            bit = percept >> int(node["test"].split()[1]) & 1
+            node = nodes[node["present" if bit else "absent"]]
+        optimal += names[node["action"]] in actions
+    assert optimal == run_report["policy_optimal_cells"]
+    assert optimal < len(best) or run_report["policy_leaves"] >= run_report["fewest_leaves"]
+    assert run_report["fewest_exact"]
 
 
 def check_history(run_report):
@@ -269,6 +292,8 @@ def test_report_of_one_run(tmp_path):
     assert made["maze"] == (MAZES / "sutton.txt").read_text().split()
     assert made["cells"] == 46
     assert isinstance(made["tree"], dict)
+    assert made["policy_leaves"] == made["fewest_leaves"] == 10
+    assert made["policy_optimal_cells"] == 46
     check_run(made)
 
 
@@ -303,7 +328,7 @@ def test_maze_of_a_file_with_slip(tmp_path):
                   cwd=tmp_path)
     assert made["percept"]["bits"] == 2 + 3 + 2
     assert made["options"]["maze"] == "maze.txt"
-    check_run(made, gamma=0.8, slip=0.2)
+    check_run(made, gamma=0.8, slip=0.2, distractors=3)
 
 
 def without_time(made):

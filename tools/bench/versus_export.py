@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares the exported policy of the Binary Gridworld with what emlearn and m2cgen make of its tree.
+"""Compares the exported policy of the Binary Gridworld with what emlearn and m2cgen make of the same tree.
 
     versus_export.py RUN_GRIDWORLD
 
-Learns the maze with run_gridworld, builds scikit-learn's form of the very tree (and of the compact one, whose
-leaves that act alike are one), exports both with emlearn (inline, int16_t) and m2cgen, compiles everything alike
-for a Cortex-M0 with -Os, and runs it on one under QEMU (the board microbit), which counts instructions. emlearn's is its tree
+Learns the maze with run_gridworld, builds scikit-learn's form of the very tree that it exports, which is as small
+as can be, exports that with emlearn (inline, int16_t) and m2cgen, compiles everything alike for a Cortex-M0 with -Os, and runs it on one under QEMU (the board microbit), which counts instructions. emlearn's is its tree
 function alone, without the vote among trees; the others get their features unpacked from the bits beforehand,
-while ours reads the percept as it is. All must act as the agent does.
+while ours reads the percept as it is. All must act as that tree does.
 
 Needs the Python packages emlearn, m2cgen and scikit-learn, and Debian's gcc-arm-none-eabi,
 picolibc-arm-none-eabi and qemu-system-arm.
@@ -71,24 +70,17 @@ def learn(program, folder):
     report, header = folder / "report.json", folder / "maze.h"
     subprocess.run([program, "binary", "--json", report, "--export-c", header], check=True,
                    stdout=subprocess.DEVNULL)
-    nodes = json.loads(report.read_text())["tree"]["nodes"]
+    nodes = json.loads(report.read_text())["policy"]["nodes"]
     return {node["node"]: node for node in nodes}, header.read_text()
 
 
-def compact(nodes, at):
+def nested(nodes, at):
     """The tree below node `at` as nested tuples (bit, absent, present), or an action."""
     node = nodes[at]
     if "class" in node:
         return node["action"]
-    return (int(node["test"].split()[1]), compact(nodes, node["absent"]),
-            compact(nodes, node["present"]))
-
-
-def prune(tree):
-    if not isinstance(tree, tuple):
-        return tree
-    bit, absent, present = tree[0], prune(tree[1]), prune(tree[2])
-    return absent if absent == present and not isinstance(absent, tuple) else (bit, absent, present)
+    return (int(node["test"].split()[1]), nested(nodes, node["absent"]),
+            nested(nodes, node["present"]))
 
 
 def leaves(tree):
@@ -188,7 +180,7 @@ def measure(text, form, percepts, wanted, folder):
                          timeout=120).stdout
     wrong, instructions = map(int, out.split())
     if wrong:
-        sys.exit(f"{wrong} of {len(percepts)} decisions differ from the agent's")
+        sys.exit(f"{wrong} of {len(percepts)} decisions differ from the tree's")
     # What the policy brings into the image: its own sections, and what of the C library it alone needs.
     bare = folder / "bare.elf"
     (folder / "none.c").write_text("unsigned decide(const void *p) { return p != 0; }\n")
@@ -210,15 +202,11 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         nodes, header = learn(args.program, folder)
-        full = compact(nodes, 0)
-        small = prune(full)
-        wanted = [act(full, p) for p in percepts]
-        contenders = [("rlvc", by_rlvc(header)),
-                      (f"emlearn, {leaves(full)} leaves", by_emlearn(full)),
-                      (f"emlearn, {leaves(small)} leaves", by_emlearn(small)),
-                      (f"m2cgen, {leaves(full)} leaves", by_m2cgen(full)),
-                      (f"m2cgen, {leaves(small)} leaves", by_m2cgen(small))]
-        print("Cortex-M0, -Os                bytes   instructions a decision")
+        tree = nested(nodes, 0)
+        wanted = [act(tree, p) for p in percepts]
+        contenders = [("rlvc", by_rlvc(header)), ("emlearn", by_emlearn(tree)),
+                      ("m2cgen", by_m2cgen(tree))]
+        print(f"{leaves(tree)} leaves, Cortex-M0, -Os     bytes   instructions a decision")
         for name, (text, form) in contenders:
             size, instructions = measure(text, form, percepts, wanted, folder)
             print(f"  {name:24}{size:9}{instructions:12.1f}", flush=True)

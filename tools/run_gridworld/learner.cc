@@ -66,7 +66,6 @@ class Learner {
     void look_for_interrupt() const;
     void record(const StepRecord &step);
     std::string print(uint32_t format) const;
-    std::string export_c() const;
 
     const Options &options_;
     const gridworld_maze &maze_;
@@ -187,12 +186,6 @@ std::string Learner::print(uint32_t format) const {
     return all;
 }
 
-std::string Learner::export_c() const {
-    std::string all;
-    check(rlvc_export_c(agent_, "maze", append, &all, nullptr), "rlvc_export_c");
-    return all;
-}
-
 RunResult Learner::result() const {
     RunResult result = result_;
     rlvc_statistics statistics;
@@ -207,7 +200,8 @@ RunResult Learner::result() const {
     }
     result.tree_json = print(RLVC_PRINT_JSON);
     result.tree_dot = print(RLVC_PRINT_DOT);
-    result.policy_c = export_c();
+    result.compaction = compact(agent_, maze_, options_.distractors, optimum_);
+    result.fewest = fewest_leaves(maze_, optimum_);
     return result;
 }
 
@@ -233,8 +227,9 @@ RunResult learn_maze(const Options &options, const gridworld_maze &maze, const O
         collected = wanted;
         listener(learner.learn());
     }
+    const clock::time_point end = clock::now();
     RunResult result = learner.result();
-    result.seconds = std::chrono::duration<double>(clock::now() - start).count();
+    result.seconds = std::chrono::duration<double>(end - start).count();
     return result;
 }
 

@@ -6,6 +6,7 @@
 #ifndef RUN_GRIDWORLD_LEARNER_H
 #define RUN_GRIDWORLD_LEARNER_H
 
+#include "compaction.h"
 #include "optimum.h"
 #include "options.h"
 #include "policy.h"
@@ -39,7 +40,9 @@ struct RunResult {
     std::size_t memory_bytes = 0;
     double seconds = 0.0;
     Policy policy;
-    std::string tree_json, tree_dot, policy_c;
+    Compaction compaction;
+    Fewest fewest; // of any optimal policy
+    std::string tree_json, tree_dot;
     std::vector<StepRecord> history;
 
     bool optimal() const {

@@ -4,6 +4,7 @@
 //     options      what the user asked for          maze_file    the maze
 //     optimum      what would be best               learner      one run: interactions and learning
 //     policy       what the tree does in each cell, compared with the optimum
+//     compaction   the policy made small, and the smallest that an optimal one could be
 //     picture, summary, screen                      what is shown
 //     report, output_file                           what is written
 //     tiled                                         the other subcommand, in a folder of its own
@@ -91,7 +92,7 @@ void run(int argc, char **argv) {
         dot.write(runs.front().tree_dot);
     }
     if (!options.export_c.empty()) {
-        export_c.write(runs.front().policy_c);
+        export_c.write(runs.front().compaction.policy_c);
     }
     if (!options.json.empty()) {
         json.write(make_report(options, maze.get(), maze.rows(), runs));

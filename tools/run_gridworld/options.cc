@@ -194,7 +194,7 @@ void add_files(CLI::App &binary, Options &options) {
         ->check(file_name());
     binary
         .add_option("--export-c", options.export_c,
-                    "write the policy as a C header for controllers; not with --runs")
+                    "write the policy, made small, as a C header for controllers; not with --runs")
         ->type_name("FILE")
         ->check(file_name());
 }

@@ -7,17 +7,18 @@
 
 namespace {
 
+using Decide = std::function<Decision(const unsigned char *)>;
+
 constexpr int draws = 16; // percepts of each cell
 
-CellPolicy look_up_cell(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
+CellPolicy look_up_cell(const Decide &decide, const gridworld_maze &maze, uint32_t distractors,
                         const Optimum &optimum, uint32_t cell, gridworld_random &random) {
     unsigned char percept[GRIDWORLD_PERCEPT_BYTES(GRIDWORLD_BITS_MAX)];
     CellPolicy result;
     result.optimal = result.near_optimal = true;
     for (int i = 0; i < draws; i++) {
-        uint32_t class_id = 0, action = 0;
         gridworld_encode(&maze, distractors, cell, &random, percept);
-        check(rlvc_predict(agent, percept, &class_id, &action), "rlvc_predict");
+        const auto [class_id, action] = decide(percept);
         result.optimal = result.optimal && optimum.optimal(cell, action);
         result.near_optimal = result.near_optimal && optimum.near_optimal(cell, action);
         if (i == 0) {
@@ -36,7 +37,7 @@ CellPolicy look_up_cell(rlvc_agent *agent, const gridworld_maze &maze, uint32_t 
 
 } // namespace
 
-Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
+Policy look_up_policy(const Decide &decide, const gridworld_maze &maze, uint32_t distractors,
                       const Optimum &optimum) {
     Policy policy;
     gridworld_random random; // not the world's: looking must not change what happens
@@ -44,12 +45,22 @@ Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t di
     policy.cells.resize(std::size_t{maze.width} * maze.height);
     for (uint32_t cell = 0; cell < policy.cells.size(); cell++) {
         if (maze.cells[cell] == GRIDWORLD_FREE) {
-            policy.cells[cell] = look_up_cell(agent, maze, distractors, optimum, cell, random);
+            policy.cells[cell] = look_up_cell(decide, maze, distractors, optimum, cell, random);
             policy.optimal += policy.cells[cell].optimal;
             policy.near_optimal += policy.cells[cell].near_optimal;
         }
     }
     return policy;
+}
+
+Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
+                      const Optimum &optimum) {
+    const auto decide = [agent](const unsigned char *percept) {
+        Decision decision{0, 0};
+        check(rlvc_predict(agent, percept, &decision.class_id, &decision.action), "rlvc_predict");
+        return decision;
+    };
+    return look_up_policy(decide, maze, distractors, optimum);
 }
 
 std::vector<uint32_t> bits_used(const rlvc_agent *agent) {

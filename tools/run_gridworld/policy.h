@@ -8,6 +8,7 @@
 #include "rlvc/rlvc.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct Policy {
     uint32_t near_optimal = 0;
 };
 
+// What is done at a percept.
+struct Decision {
+    uint32_t class_id;
+    uint32_t action;
+};
+
+Policy look_up_policy(const std::function<Decision(const unsigned char *)> &decide,
+                      const gridworld_maze &maze, uint32_t distractors, const Optimum &optimum);
 Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
                       const Optimum &optimum);
 

@@ -89,6 +89,12 @@ void add_run(Json &json, const gridworld_maze &maze, const std::vector<std::stri
     json["depth"] = run.depth;
     json["bits_used"] = run.bits_used;
     json["distractors_used"] = run.distractors_used;
+    json["policy_leaves"] = run.compaction.info.leaves;
+    json["policy_exact"] = run.compaction.info.exact == 1;
+    json["policy_optimal_cells"] = run.compaction.optimal;
+    json["policy_near_optimal_cells"] = run.compaction.near_optimal;
+    json["fewest_leaves"] = run.fewest.leaves;
+    json["fewest_exact"] = run.fewest.exact;
     json["last_split_step"] = run.last_split_step;
     json["memory_bytes"] = run.memory_bytes;
     json["seconds"] = run.seconds;
@@ -100,6 +106,7 @@ void add_run(Json &json, const gridworld_maze &maze, const std::vector<std::stri
     });
     json["history"] = describe_history(run.history);
     json["tree"] = Json::parse(run.tree_json);
+    json["policy"] = Json::parse(run.compaction.tree_json);
 }
 
 } // namespace

@@ -74,6 +74,17 @@ std::string not_optimal_cells(const gridworld_maze &maze, const RunResult &run) 
     return text;
 }
 
+// "10" or, where it is not known to be the fewest, "10 or fewer".
+std::string leaves_of(const Fewest &fewest) {
+    return grouped(fewest.leaves) + (fewest.exact ? "" : " or fewer");
+}
+
+std::string describe_policy(const RunResult &run) {
+    return format("%u leaves do for it, in %u of %u cells optimal; an optimal one needs %s",
+                  run.compaction.info.leaves, run.compaction.optimal, run.cells,
+                  leaves_of(run.fewest).c_str());
+}
+
 std::string row(const char *name, const std::string &value) {
     return format("  %-14s", name) + value + "\n";
 }
@@ -143,7 +154,7 @@ std::string describe_run(const Options &options, const gridworld_maze &maze, con
     return row("optimal", optimal) + row("bits used", bits) +
            row("classes", format("%u, depth %u, last split at step k = %u", run.classes, run.depth,
                                  run.last_split_step)) +
-           row("interactions", grouped(run.interactions)) +
+           row("policy", describe_policy(run)) + row("interactions", grouped(run.interactions)) +
            row("memory", grouped(run.memory_bytes) + " bytes") +
            row("time", seconds(run.seconds) + " s");
 }
@@ -199,6 +210,8 @@ std::string describe_runs(const Options &options, const gridworld_maze &maze,
     const Spread near = spread_of(runs, [](const RunResult &r) { return r.policy.near_optimal; });
     const Spread optimal = spread_of(runs, to_optimal);
     const Spread classes = spread_of(runs, [](const RunResult &r) { return r.classes; });
+    const Spread leaves =
+        spread_of(runs, [](const RunResult &r) { return r.compaction.info.leaves; });
     const Spread split = spread_of(runs, [](const RunResult &r) { return r.last_split_step; });
     const Spread ms = spread_of(
         runs, [](const RunResult &r) { return static_cast<uint64_t>(r.seconds * 1000.0); });
@@ -223,6 +236,11 @@ std::string describe_runs(const Options &options, const gridworld_maze &maze,
                format("just those of x and y in %u of %u runs, no random one in %u",
                       count([&](const RunResult &r) { return r.bits_used == place; }), total,
                       count([](const RunResult &r) { return r.distractors_used == 0; }))) +
+           row("policy",
+               format("%u to %u leaves do for it, %u in the median; an optimal one needs %s",
+                      static_cast<unsigned>(leaves.least), static_cast<unsigned>(leaves.most),
+                      static_cast<unsigned>(leaves.median),
+                      leaves_of(runs.front().fewest).c_str())) +
            row("last split",
                format("at step k = %u at the latest", static_cast<unsigned>(split.most))) +
            row("memory", grouped(runs.front().memory_bytes) + " bytes each");
