@@ -32,6 +32,15 @@ void rlvc_explorer_inherit(rlvc_explorer *explorer, uint32_t actions, uint32_t n
     explorer->lead[new_class] = explorer->lead[old_class];
 }
 
+void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
+                        uint32_t other) {
+    for (uint32_t a = 0; a < actions; a++) {
+        uint8_t *seen = seen_in(explorer, actions, class_id) + a;
+        uint32_t sum = (uint32_t)*seen + seen_in(explorer, actions, other)[a];
+        *seen = (uint8_t)(sum < UINT8_MAX ? sum : UINT8_MAX);
+    }
+}
+
 uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs) {
     uint32_t least = interactions / MEAN_PARTS / pairs;
     least = least > LEAST_MIN ? least : LEAST_MIN;

@@ -44,6 +44,9 @@ void rlvc_explorer_clear(rlvc_explorer *explorer, uint32_t actions);
 void rlvc_explorer_inherit(rlvc_explorer *explorer, uint32_t actions, uint32_t new_class,
                            uint32_t old_class);
 
+/* Adds to a class what was counted in another, which becomes part of it. O(actions). */
+void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id, uint32_t other);
+
 /* m for a database of so many interactions of so many pairs. O(1). */
 uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs);
 

@@ -417,6 +417,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_act": (c.c_int, [_P, _P]),
     "rlvc_observe": (c.c_int, [_P, Choice, c.c_float, _P, c.c_uint8]),
     "rlvc_learn": (c.c_int, [_P, _U32, _P]),
+    "rlvc_prune": (c.c_int, [_P, c.c_float, c.c_float, _P]),
     "rlvc_predict": (c.c_int, [_P, _P, _P, _P]),
     "rlvc_stats": (c.c_int, [_P, _P]),
     "rlvc_q": (c.c_int, [_P, _U32, _U32, _P, _P]),

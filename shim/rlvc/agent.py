@@ -317,6 +317,42 @@ class Agent(Looking):
             if progress.done or budget is not None:
                 return Progress(work, progress.rounds, progress.splits, bool(progress.done))
 
+    def prune(self, tolerance: float = 0.0, deviations: float = 0.0) -> int:
+        """Take tests out of the tree that the stored interactions do not support (section 7).
+
+        Parameters
+        ----------
+        tolerance : float
+            The two sides of a test agree if they act alike, and the Q of each action differ by no more
+            than this, in units of return,
+        deviations : float
+            or than so many standard errors of the difference.
+
+        Returns
+        -------
+        int
+            How many splits were undone.
+
+        Raises
+        ------
+        RangeError
+            A number is out of range.
+        BusyError
+            A learning step is under way.
+
+        Notes
+        -----
+        No greedy action changes. The next ``learn`` splits again what it finds to differ. Source:
+        ``rlvc_prune`` in ``core/include/rlvc/agent.h``.
+        """
+        undone = ctypes.c_uint32()
+        try:
+            status = self._long("rlvc_prune", tolerance, deviations, _byref(undone))
+        except ctypes.ArgumentError:
+            raise RangeError("tolerance and deviations are numbers") from None
+        self._check(status)
+        return undone.value
+
     # -------------------------------------------------------------- deploying
 
     def compact(

@@ -32,11 +32,13 @@ static inline void faulty_call_back(faulty *f) {
     rlvc_choice choice = {0, 0};
     rlvc_progress progress;
     rlvc_statistics statistics;
+    uint32_t undone;
     const rlvc_status statuses[] = {
         rlvc_begin(agent, percept),
         rlvc_act(agent, &choice),
         rlvc_observe(agent, choice, 0.0f, percept, RLVC_GOES_ON),
         rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress),
+        rlvc_prune(agent, 0.0f, 0.0f, &undone),
         rlvc_predict(agent, percept, NULL, NULL),
         rlvc_stats(agent, &statistics),
         rlvc_q(agent, 0, 0, NULL, NULL),

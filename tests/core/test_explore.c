@@ -101,6 +101,10 @@ static void test_counting(void **state) {
     assert_int_equal(explorer.seen[10], 7);
     assert_int_equal(explorer.seen[11], 1);
     assert_int_equal(explorer.lead[2], 1);
+    rlvc_explorer_join(&explorer, ACTIONS, 2, 0);
+    assert_int_equal(explorer.seen[8], 255);
+    assert_int_equal(explorer.seen[10], 14);
+    assert_int_equal(explorer.seen[11], 1);
     assert_int_equal(explorer.last, 3);
 }
 

@@ -172,6 +172,7 @@ REENTRIES = {
     "predict_many": lambda agent: agent.predict(np.zeros((2, 1), np.uint8)),
     "act_many": lambda agent: agent.act_many(np.zeros((2, 1), np.uint8)),
     "batch": lambda agent: agent.batch(2).act(),
+    "prune": lambda agent: agent.prune(),
     "print": lambda agent: agent.print(),
     "export_c": lambda agent: agent.export_c(),
     "close": lambda agent: agent.close(),

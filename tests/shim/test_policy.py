@@ -157,6 +157,24 @@ def test_its_export_is_the_policy(sorter, tmp_path):
     np.testing.assert_array_equal([int(line) for line in done.stdout.split()], policy.act(ALL))
 
 
+def test_prune(walk):
+    agent = walk()
+    agent.learn()
+    before = agent.predict(ALL[1:]).action
+    classes = agent.classes
+    assert agent.prune() == 0
+    assert agent.prune(0.5) == classes - agent.classes > 0
+    np.testing.assert_array_equal(agent.predict(ALL[1:]).action, before)
+    agent.check()
+    assert agent.learn().splits > 0, "what differs is split again"
+    for wrong in ((-1.0, 0.0), (0.0, -1.0), (float("nan"), 0.0), ("much", 0.0)):
+        with pytest.raises(errors.RangeError):
+            agent.prune(*wrong)
+    agent.learn(64)
+    with pytest.raises(errors.BusyError):
+        agent.prune()
+
+
 def reference(rows, allowed):
     """The fewest leaves, by trying every feature at every node."""
     if allowed.all(axis=0).any():

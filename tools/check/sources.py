@@ -13,12 +13,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # its own header.
 FLOORS = {
     "snapshot": 9,
-    "policy": 8, "resume": 8,
+    "policy": 8, "prune": 8, "resume": 8,
     "agent": 7, "config": 7, "export": 7, "learn": 7, "print": 7,
     "state": 6,
     "model": 5, "succession": 5,
     "export_descriptors": 4, "samples": 4, "seek": 4, "split": 4,
     "aliasing": 3, "compact": 3, "explore": 3, "export_tree": 3, "incremental": 3, "solver": 3,
+    "spread": 3,
     "cutpoint": 2, "returns": 2, "tree": 2, "values": 2,
     "chi2": 1, "fewest": 1, "log": 1, "replay": 1, "score": 1, "slots": 1, "sort": 1, "text": 1,
     "arena": 0, "bytes": 0, "crc": 0, "mean": 0, "ones": 0, "real": 0, "rng": 0, "status": 0,

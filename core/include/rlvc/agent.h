@@ -225,6 +225,24 @@ typedef struct rlvc_progress {
  *         *progress tells. */
 RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress);
 
+/* Takes tests out of the tree that the stored interactions do not support (section 7): from the newest to the
+ * oldest a split is undone if its two sides are single classes that agree. These become one class with
+ * the mean of their Q, weighted by the interactions behind each; classes and splits are numbered
+ * anew, in the order they had. Two classes agree if their greedy action is the same and every action was
+ * tried in both or in neither, with Q that differ by no more than the tolerance, or than so many standard
+ * errors of the difference where both have min_samples in the ring. So no greedy action changes, and a test
+ * stays that has one below it which stays.
+ *
+ * It is for before a tree is read or deployed, and for a world that has changed: the next rlvc_learn tests the
+ * classes again, and splits again what it finds to differ. The standard errors are those of independent samples,
+ * which those of one trajectory are not. O(capacity + classes * (actions + depth)).
+ * @param tolerance  in units of return, [0, RLVC_REWARD_MAX]
+ * @param deviations [0, 1000]; 0: only the tolerance counts
+ * @param undone     how many splits were undone
+ * @return RLVC_OK; RLVC_E_RANGE; RLVC_E_BUSY: a learning step is under way. */
+RLVC_API rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations,
+                                uint32_t *undone);
+
 /* ------------------------------------------------------------------ asking */
 
 /* The class of a percept and its greedy action: the learnt policy. Changes nothing. While a learning
