@@ -70,7 +70,7 @@ Compaction compact(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distr
     const Block block = allocate(bytes);
     check(rlvc_policy_make(agent, &config, block.get(), bytes, &policy, &made.info),
           "rlvc_policy_make");
-    const auto action_at = [&](const unsigned char *percept) {
+    const auto action_at = [&](uint32_t, const unsigned char *percept) {
         uint32_t action = 0;
         check(rlvc_policy_act(policy, percept, &action), "rlvc_policy_act");
         return Decision{0, action};

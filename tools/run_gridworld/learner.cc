@@ -33,6 +33,7 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint3
         config.continuing = 1;                         // through the teleport
         config.explore = RLVC_EXPLORE_UNIFORM;
     }
+    config.solver = options.solver;
     config.discount = options.gamma;
     config.epsilon = options.epsilon;
     config.alpha = options.alpha;

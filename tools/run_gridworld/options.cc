@@ -19,7 +19,9 @@ namespace {
 // maze without slip the residual criterion learns fast, from what fits into 36 KiB. Chance calls for more
 // samples; and in a larger maze the ring must hold all that was seen, and the greedy action of a class
 // that still holds half the maze would only push the walk into a corner. What follows an action is then
-// left out: it takes several times as long, and the rewards alone come to tell as much apart.
+// left out: it takes several times as long, and the rewards alone come to tell as much apart. An incremental
+// solver forgets what it is taught at its learning rate, so that it needs more interactions, and more of them
+// where the policy leads.
 struct Defaults {
     uint32_t interactions;
     uint32_t steps;
@@ -32,6 +34,7 @@ struct Defaults {
 
 constexpr Defaults returns_defaults{10000, 20, 0.8f, 0.0001f, 0.0001f, 0, 0};
 constexpr Defaults small_defaults{2500, 25, 0.9f, 0.0001f, 0.1f, 1, 1200};
+constexpr Defaults small_incremental_defaults{20000, 200, 0.3f, 0.0001f, 0.1f, 1, 1200};
 constexpr Defaults large_defaults{0, 60, 1.0f, 0.00001f, 0.00001f, 0, 0};
 constexpr uint32_t small_cells = 46;
 constexpr uint32_t large_interactions_a_cell = 320;
@@ -41,17 +44,31 @@ constexpr char defaults_table[] = R"(
 Defaults by criterion    interactions  steps  epsilon  alpha    known    successors  capacity
   returns                10000 each       20  0.8      0.0001   0.0001   no          a step's
   residual, small maze   2500             25  0.9      0.0001   0.1      yes         1200
+  ... by increments      20000           200  0.3      0.0001   0.1      yes         1200
   residual, any other    320 a cell       60  1        0.00001  0.00001  no          all
-A maze is small if it has at most 46 free cells, as Sutton's has, and no slip.)";
+A maze is small if it has at most 46 free cells, as Sutton's has, and no slip. Of the library's solvers
+q-learning and sarsa work by increments; in any other maze, too, by epsilon 0.3.
+
+Learners that --learner takes, and what they are without --interactions and --epsilon
+  value-iteration, policy-iteration, q-learning, sarsa   the library's solvers, as above
+  told-r-max                20 a cell            R-max on the cells, whose numbers it is told
+  told-value-iteration     100 a cell  1         value iteration on a model of the cells
+  told-q-learning          500 a cell  0.6       tables over the cells
+  told-sarsa               500 a cell  0.3
+  raw-q-learning        20,000 a cell  0.6       a table over whole percepts: not to get there
+  all                                            all of these)";
 
 Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
     if (options.criterion == RLVC_CRITERION_RETURNS) {
         return returns_defaults;
     }
+    const bool incremental =
+        options.solver == RLVC_SOLVER_Q_LEARNING || options.solver == RLVC_SOLVER_SARSA;
     if (maze.free_cells <= small_cells && options.slip == 0.0f) {
-        return small_defaults;
+        return incremental ? small_incremental_defaults : small_defaults;
     }
     Defaults large = large_defaults;
+    large.epsilon = incremental ? small_incremental_defaults.epsilon : large.epsilon;
     large.interactions = large_interactions_a_cell * maze.free_cells;
     return large;
 }
@@ -100,6 +117,16 @@ CLI::Validator file_name() {
                                 : std::string();
         },
         "");
+}
+
+void add_learner(CLI::App &binary, Options &options) {
+    binary
+        .add_option_function<std::string>(
+            "--learner",
+            [&options](const std::string &text) { options.learners = parse_learners(text); },
+            "who learns: one of the library's solvers (value-iteration), or several names or 'all' "
+            "for a table that compares")
+        ->type_name("NAME,...");
 }
 
 void add_learning(CLI::App &binary, Options &options) {
@@ -207,6 +234,9 @@ void check_combination(const Options &options) {
         if (file.second.empty()) {
             continue;
         }
+        if (name != "--json" && is_comparison(options)) {
+            throw Failure(name + ": writes one tree of the library's: name one of its solvers with --learner");
+        }
         if (name != "--json" && options.runs > 0) {
             throw Failure(name + ": writes one tree, and --runs makes several: leave one of them out");
         }
@@ -220,6 +250,10 @@ void check_combination(const Options &options) {
 
 } // namespace
 
+bool is_comparison(const Options &options) {
+    return options.learners.size() > 1 || options.learners.front().kind != LearnerKind::own;
+}
+
 bool read_options(int argc, char **argv, Options &options) {
     const std::string version = std::string("run_gridworld ") + rlvc_version();
     CLI::App app("Learns a maze from rewards alone and shows the classes and the policy it found.",
@@ -230,6 +264,7 @@ bool read_options(int argc, char **argv, Options &options) {
         "binary", "The Binary Gridworld (section 6.1): a cell is seen as a string of bits");
     app.footer("Another subcommand, tiled, has a help of its own: run_gridworld tiled --help");
     binary.set_version_flag("--version", version, "Print the version and exit");
+    add_learner(binary, options);
     add_learning(binary, options);
     add_world(binary, options);
     add_files(binary, options);
@@ -248,17 +283,25 @@ bool read_options(int argc, char **argv, Options &options) {
     } catch (const CLI::ParseError &error) {
         throw Failure(error.what());
     }
+    if (options.learners.empty()) {
+        options.learners = {learner_types().front()};
+    }
+    options.solver = options.learners.front().solver;
     check_combination(options);
     return true;
 }
 
-void settle(Options &options, const gridworld_maze &maze) {
-    const bool returns = options.criterion == RLVC_CRITERION_RETURNS;
+void check_percept(const Options &options, const gridworld_maze &maze) {
     const uint32_t place = gridworld_bits(&maze, 0);
     if (gridworld_bits(&maze, options.distractors) > GRIDWORLD_BITS_MAX) {
         throw Failure("--distractors: at most " + std::to_string(GRIDWORLD_BITS_MAX - place) +
                       " fit into a percept of this maze");
     }
+}
+
+void settle(Options &options, const gridworld_maze &maze) {
+    const bool returns = options.criterion == RLVC_CRITERION_RETURNS;
+    check_percept(options, maze);
     const Defaults defaults = defaults_for(options, maze);
     if (options.interactions == 0) {
         options.interactions = defaults.interactions;

@@ -3,12 +3,17 @@
 #ifndef RUN_GRIDWORLD_OPTIONS_H
 #define RUN_GRIDWORLD_OPTIONS_H
 
+#include "learners.h"
+
 #include "gridworld.h"
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 struct Options {
+    std::vector<LearnerType> learners; // at least one
+    uint8_t solver = 0;                // RLVC_SOLVER_*: that of the learner at work
     uint8_t criterion = 0;     // RLVC_CRITERION_*
     uint32_t interactions = 0; // returns: of each step; residual: of the whole run. 0: see settle()
     uint32_t steps = 0;        // learning steps; 0: see settle()
@@ -30,6 +35,12 @@ struct Options {
 // Reads the command line. Throws Failure. What --help and --version ask for is printed here; the
 // answer is then false: there is nothing to run.
 bool read_options(int argc, char **argv, Options &options);
+
+// Whether several learners, or a peer, are asked for: then a table compares them.
+bool is_comparison(const Options &options);
+
+// Throws Failure if so many bits do not fit.
+void check_percept(const Options &options, const gridworld_maze &maze);
 
 // Fills in what was left open, after the criterion and the size of the maze; checks what only the
 // maze can tell. Throws Failure.

@@ -7,7 +7,6 @@
 
 namespace {
 
-using Decide = std::function<Decision(const unsigned char *)>;
 
 constexpr int draws = 16; // percepts of each cell
 
@@ -18,7 +17,7 @@ CellPolicy look_up_cell(const Decide &decide, const gridworld_maze &maze, uint32
     result.optimal = result.near_optimal = true;
     for (int i = 0; i < draws; i++) {
         gridworld_encode(&maze, distractors, cell, &random, percept);
-        const auto [class_id, action] = decide(percept);
+        const auto [class_id, action] = decide(cell, percept);
         result.optimal = result.optimal && optimum.optimal(cell, action);
         result.near_optimal = result.near_optimal && optimum.near_optimal(cell, action);
         if (i == 0) {
@@ -55,8 +54,8 @@ Policy look_up_policy(const Decide &decide, const gridworld_maze &maze, uint32_t
 
 Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
                       const Optimum &optimum) {
-    const auto decide = [agent](const unsigned char *percept) {
-        Decision decision{0, 0};
+    const auto decide = [agent](uint32_t, const unsigned char *percept) {
+        Decision decision{};
         check(rlvc_predict(agent, percept, &decision.class_id, &decision.action), "rlvc_predict");
         return decision;
     };

@@ -27,14 +27,18 @@ struct Policy {
     uint32_t near_optimal = 0;
 };
 
-// What is done at a percept.
+// What a learner makes of a percept of a cell: its class, or whatever else it tells apart, and action.
 struct Decision {
     uint32_t class_id;
     uint32_t action;
 };
 
-Policy look_up_policy(const std::function<Decision(const unsigned char *)> &decide,
-                      const gridworld_maze &maze, uint32_t distractors, const Optimum &optimum);
+using Decide = std::function<Decision(uint32_t cell, const unsigned char *percept)>;
+
+Policy look_up_policy(const Decide &decide, const gridworld_maze &maze, uint32_t distractors,
+                      const Optimum &optimum);
+
+// That of an agent.
 Policy look_up_policy(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
                       const Optimum &optimum);
 

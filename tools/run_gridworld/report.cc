@@ -35,7 +35,8 @@ Json bit_range(uint32_t first, uint32_t count) {
 }
 
 Json describe_options(const Options &options) {
-    return {{"criterion", criterion_name(options)},
+    return {{"learner", options.learners.front().name},
+            {"criterion", criterion_name(options)},
             {"interactions", options.interactions},
             {"steps", options.steps},
             {"gamma", shortest(options.gamma)},
@@ -109,20 +110,39 @@ void add_run(Json &json, const gridworld_maze &maze, const std::vector<std::stri
     json["policy"] = Json::parse(run.compaction.tree_json);
 }
 
+Json describe_percept(const Options &options, const gridworld_maze &maze) {
+    const uint32_t x = gridworld_x_bits(&maze), y = gridworld_y_bits(&maze);
+    return {{"bits", x + y + options.distractors},
+            {"x_bits", bit_range(0, x)},
+            {"distractor_bits", bit_range(x, options.distractors)},
+            {"y_bits", bit_range(x + options.distractors, y)}};
+}
+
+Json describe_outcome(const Outcome &run) {
+    return {{"seed", run.seed},
+            {"interactions", run.interactions},
+            {"interactions_to_optimal", or_null(run.interactions_to_optimal)},
+            {"interactions_to_first_optimal", or_null(run.interactions_to_first_optimal)},
+            {"optimal_cells", run.optimal_cells},
+            {"near_optimal_cells", run.near_optimal_cells},
+            {"states", run.states},
+            {"seconds", run.seconds}};
+}
+
+// A file's name need not be UTF-8.
+std::string print(const Json &json) {
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 } // namespace
 
 std::string make_report(const Options &options, const gridworld_maze &maze,
                         const std::vector<std::string> &rows, const std::vector<RunResult> &runs) {
-    const uint32_t x = gridworld_x_bits(&maze), y = gridworld_y_bits(&maze);
     Json json{{"version", report_version},
               {"kind", "run_gridworld binary"},
               {"program", std::string("run_gridworld ") + rlvc_version()},
               {"options", describe_options(options)},
-              {"percept",
-               {{"bits", x + y + options.distractors},
-                {"x_bits", bit_range(0, x)},
-                {"distractor_bits", bit_range(x, options.distractors)},
-                {"y_bits", bit_range(x + options.distractors, y)}}}};
+              {"percept", describe_percept(options, maze)}};
     if (options.runs == 0) {
         add_run(json, maze, rows, runs.front());
     } else {
@@ -133,6 +153,26 @@ std::string make_report(const Options &options, const gridworld_maze &maze,
             json["runs"].push_back(std::move(one));
         }
     }
-    // A file's name need not be UTF-8.
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return print(json);
+}
+
+std::string make_comparison_report(const Options &options, const gridworld_maze &maze,
+                                   const std::vector<std::string> &rows,
+                                   const std::vector<LearnerRuns> &learners) {
+    Json json{{"version", report_version},
+              {"kind", "run_gridworld binary --learner"},
+              {"program", std::string("run_gridworld ") + rlvc_version()},
+              {"gamma", shortest(options.gamma)},
+              {"slip", shortest(options.slip)},
+              {"maze", rows},
+              {"cells", maze.free_cells},
+              {"percept", describe_percept(options, maze)}};
+    for (const LearnerRuns &learner : learners) {
+        Json runs = Json::array();
+        for (const Outcome &run : learner.runs) {
+            runs.push_back(describe_outcome(run));
+        }
+        json["learners"].push_back({{"learner", learner.learner.name}, {"runs", std::move(runs)}});
+    }
+    return print(json);
 }
