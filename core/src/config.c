@@ -76,7 +76,7 @@ static const char *wrong_in_choices(const rlvc_config *config) {
         return "criterion must be one of RLVC_CRITERION_*";
     if (config->score > RLVC_SCORE_CHI2)
         return "score must be one of RLVC_SCORE_*";
-    if (config->solver > RLVC_SOLVER_SARSA)
+    if (config->solver > RLVC_SOLVER_PRIORITIZED)
         return "solver must be one of RLVC_SOLVER_*";
     if (config->untried > RLVC_UNTRIED_OPTIMISTIC)
         return "untried must be one of RLVC_UNTRIED_*";

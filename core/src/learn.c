@@ -50,8 +50,9 @@ rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasi
 }
 
 rlvc_solving rlvc_learner_solving(const rlvc_agent *agent) {
-    rlvc_solving made = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
-                         agent->config.discount, agent->config.tolerance};
+    rlvc_solving made = {agent->space.sample,     agent->tree.classes,     agent->config.max_sweeps,
+                         agent->config.discount,  agent->config.tolerance, agent->replay.slots,
+                         agent->pending};
     return made;
 }
 

@@ -13,7 +13,7 @@ from .errors import ConfigError
 
 Criterion = Literal["returns", "residual"]
 Score = Literal["gain", "gini", "chi2"]
-Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa"]
+Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"]
 Untried = Literal["excluded", "optimistic"]
 Explore = Literal["uniform", "directed"]
 
@@ -21,7 +21,7 @@ Explore = Literal["uniform", "directed"]
 CHOICES: dict[str, tuple[str, ...]] = {
     "criterion": ("returns", "residual"),
     "score": ("gain", "gini", "chi2"),
-    "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa"),
+    "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"),
     "untried": ("excluded", "optimistic"),
     "explore": ("uniform", "directed"),
 }
@@ -54,7 +54,7 @@ class Config:
         truncated discounted returns on a fresh one each step, as published.
     score : {"gain", "gini", "chi2"}
         How well a feature explains a partition (section 4.2.3).
-    solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa"}
+    solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"}
         Where the values of the classes come from.
     untried : {"excluded", "optimistic"}
         What a class-action pair without interactions is worth to the batch solvers: nothing that

@@ -118,7 +118,7 @@ static void test_choices(void **state) {
     } choices[] = {
         {"criterion", &config.criterion, RLVC_CRITERION_RESIDUAL},
         {"score", &config.score, RLVC_SCORE_CHI2},
-        {"solver", &config.solver, RLVC_SOLVER_SARSA},
+        {"solver", &config.solver, RLVC_SOLVER_PRIORITIZED},
         {"untried", &config.untried, RLVC_UNTRIED_OPTIMISTIC},
         {"continuing", &config.continuing, 1},
         {"successors", &config.successors, 1},

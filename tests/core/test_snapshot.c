@@ -92,9 +92,9 @@ static void resume_and_compare(uint32_t budget, const rlvc_store *store) {
 static void test_resume_anywhere(void **state) {
     (void)state;
     uint32_t phases[10] = {0};
-    for (int i = 0; i < FORMS * 8; i++) {
-        const kind k = {(uint8_t)(i & 1), (uint8_t)(i >> 1 & 3), i >> 3};
-        const uint32_t budget = 64u + 37u * (uint32_t)(i % 5);
+    for (int i = 0; i < FORMS * 10; i++) {
+        const kind k = {(uint8_t)(i & 1), (uint8_t)(i / 2 % 5), i / 10};
+        const uint32_t budget = 64u + 37u * (uint32_t)(i / 3 % 5);
         rlvc_progress progress = {0, 0, 0, 0, {0, 0, 0}};
         prepare(&k);
         rlvc_store store = medium_store(&m, &p.config, &p.domain, i % 2);
@@ -105,7 +105,8 @@ static void test_resume_anywhere(void **state) {
             steps += progress.done;
             if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 20u)
                 player_play(&p, 1);
-            if (n % 3 == 0 || k.solver >= RLVC_SOLVER_Q_LEARNING) {
+            if (n % 3 == 0 || k.solver == RLVC_SOLVER_Q_LEARNING ||
+                k.solver == RLVC_SOLVER_SARSA) {
                 phases[p.agent->learner.phase]++;
                 resume_and_compare(budget, &store);
             }
@@ -118,8 +119,9 @@ static void test_resume_anywhere(void **state) {
 /* Every single slice of one step, as short as slices get, and on to the end of it. */
 static void test_resume_every_slice(void **state) {
     (void)state;
-    for (uint8_t criterion = 0; criterion < 2; criterion++) {
-        const kind k = {criterion, RLVC_SOLVER_POLICY_ITERATION, BATCH};
+    for (int i = 0; i < 4; i++) {
+        const uint8_t solvers[] = {RLVC_SOLVER_POLICY_ITERATION, RLVC_SOLVER_PRIORITIZED};
+        const kind k = {(uint8_t)(i & 1), solvers[i >> 1], BATCH};
         rlvc_progress progress;
         prepare(&k);
         rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
@@ -351,7 +353,7 @@ static void test_resume_improving(void **state) {
     (void)state;
     uint32_t first[9] = {0}, word[10], again[10];
     rlvc_solver solver, resumed;
-    rlvc_solving solving = {NULL, 2, 10, 0.9f, 0.01f};
+    rlvc_solving solving = {NULL, 2, 10, 0.9f, 0.01f, 0, NULL};
     rlvc_values values;
     memset(&values, 0, sizeof values);
     values.actions = 4;
@@ -368,12 +370,70 @@ static void test_resume_improving(void **state) {
     assert_int_equal(resumed.changed, 1);
     rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
     assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
+    word[0] = 6; /* a phase of prioritized sweeping's */
+    rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
+    assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
+}
+
+/* Prioritized sweeping: a cursor and priorities that no solver comes to, with room for the predecessors and
+ * without. */
+static void test_resume_prioritized(void **state) {
+    (void)state;
+    rlvc_sample model[8] = {{0, 1}, {1, 3}, {0, 2}}; /* of one action: from 0 to both, from 1 to 0 */
+    rlvc_sample copy[8] = {{0, 1}, {1, 3}, {0, 2}};
+    uint32_t first[3] = {0, 2, 3}, tried[2] = {4, 2}, word[10], again[10];
+    float q[2] = {0.0f, 0.0f}, reward[2] = {1.0f, 2.0f}, value[2] = {0.0f, 0.0f};
+    uint8_t policy[2] = {0, 0};
+    uint16_t priority[2];
+    rlvc_values values = {.q = q, .reward = reward, .tried = tried, .first = first, .value = value,
+                          .policy = policy, .actions = 1};
+    uint32_t changes = 0;
+    for (uint32_t slots = 0; slots < 9u; slots += 8u) {
+        const rlvc_solving solving = {model, 2, 9, 0.9f, 0.01f, slots, priority};
+        const rlvc_solving after = {copy, 2, 9, 0.9f, 0.01f, slots, priority};
+        rlvc_solver solver, resumed;
+        rlvc_solver_begin(&solver, RLVC_SOLVER_PRIORITIZED);
+        value[0] = value[1] = 0.0f;
+        priority[0] = priority[1] = 7;
+        while (!solver.done) {
+            rlvc_solver_mark(&solver, word);
+            rlvc_solver_begin(&resumed, RLVC_SOLVER_PRIORITIZED);
+            assert_true(rlvc_solver_restore(&resumed, &after, &values, word));
+            rlvc_solver_mark(&resumed, again);
+            assert_memory_equal(word, again, sizeof word);
+            for (uint32_t i = 0; i < 24u; i++) { /* lowest and highest bits of the words */
+                memcpy(again, word, sizeof word);
+                again[i / 3u] ^= (uint32_t[]){2u, 1u << 8, 1u << 31}[i % 3u];
+                rlvc_solver_begin(&resumed, RLVC_SOLVER_PRIORITIZED);
+                if (!rlvc_solver_restore(&resumed, &after, &values, again)) {
+                    changes++;
+                    continue;
+                }
+                assert_in_range(resumed.class_id, 0, 1);
+                assert_int_equal(resumed.action, 0);
+            }
+            rlvc_solver_step(&solver, &solving, &values, 1);
+        }
+        assert_int_equal(priority[0] | priority[1], 0);
+        priority[1] = 1; /* it would be left there */
+        rlvc_solver_mark(&solver, word);
+        word[0] = slots ? 6u : 0u;
+        word[1] = slots ? 1u : 0u;
+        word[4] = 0;
+        word[3] = 0;
+        rlvc_solver_begin(&resumed, RLVC_SOLVER_PRIORITIZED);
+        assert_int_equal(rlvc_solver_restore(&resumed, &after, &values, word), slots ? 1 : 0);
+        priority[0] = 1;
+        rlvc_solver_begin(&resumed, RLVC_SOLVER_PRIORITIZED);
+        assert_false(rlvc_solver_restore(&resumed, &after, &values, word));
+    }
+    assert_true(changes > 0);
 }
 
 /* A phase that a config does not have. */
 static void test_unsound_phases(void **state) {
     (void)state;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 10; i++) {
         const kind k = {(uint8_t)(i & 1), (uint8_t)(i >> 1), BATCH};
         prepare(&k);
         rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);
@@ -388,7 +448,7 @@ static void test_unsound_phases(void **state) {
 /* A learning step that has nothing to learn from may be resumed too. */
 static void test_resume_without_data(void **state) {
     (void)state;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 10; i++) {
         const kind k = {(uint8_t)(i & 1), (uint8_t)(i >> 1), BATCH};
         rlvc_progress progress;
         prepare(&k);
@@ -644,6 +704,7 @@ int main(void) {
         cmocka_unit_test(test_forgery),
         cmocka_unit_test(test_unsound_fields),
         cmocka_unit_test(test_unsound_learner),
+        cmocka_unit_test(test_resume_prioritized),
         cmocka_unit_test(test_unsound_phases),
         cmocka_unit_test(test_resume_improving),
         cmocka_unit_test(test_resume_without_data),

@@ -458,7 +458,7 @@ def test_table_of_runs(tmp_path):
 
 # ------------------------------------------------------------------------- comparing
 
-OWN = ["value-iteration", "policy-iteration", "q-learning", "sarsa"]
+OWN = ["value-iteration", "policy-iteration", "prioritized-sweeping", "q-learning", "sarsa"]
 PEERS = ["told-r-max", "told-value-iteration", "told-q-learning", "told-sarsa", "raw-q-learning"]
 
 

@@ -25,6 +25,7 @@ const std::vector<LearnerType> &learner_types() {
     static const std::vector<LearnerType> types{
         {"value-iteration", LearnerKind::own, RLVC_SOLVER_VALUE_ITERATION},
         {"policy-iteration", LearnerKind::own, RLVC_SOLVER_POLICY_ITERATION},
+        {"prioritized-sweeping", LearnerKind::own, RLVC_SOLVER_PRIORITIZED},
         {"q-learning", LearnerKind::own, RLVC_SOLVER_Q_LEARNING},
         {"sarsa", LearnerKind::own, RLVC_SOLVER_SARSA},
         {"told-r-max", LearnerKind::told_r_max, 0},

@@ -50,7 +50,8 @@ A maze is small if it has at most 46 free cells, as Sutton's has, and no slip. O
 q-learning and sarsa work by increments; in any other maze, too, by epsilon 0.3.
 
 Learners that --learner takes, and what they are without --interactions and --epsilon
-  value-iteration, policy-iteration, q-learning, sarsa   the library's solvers, as above
+  value-iteration, policy-iteration, prioritized-sweeping, q-learning, sarsa
+                                                 the library's solvers, as above
   told-r-max                20 a cell            R-max on the cells, whose numbers it is told
   told-value-iteration     100 a cell  1         value iteration on a model of the cells
   told-q-learning          500 a cell  0.6       tables over the cells

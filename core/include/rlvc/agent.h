@@ -41,6 +41,9 @@ typedef struct rlvc_agent rlvc_agent;
 #define RLVC_SOLVER_POLICY_ITERATION 1u /* batch, likewise */
 #define RLVC_SOLVER_Q_LEARNING 2u       /* incremental: rlvc_observe updates Q, rlvc_learn only splits */
 #define RLVC_SOLVER_SARSA 3u            /* likewise, on-policy */
+#define RLVC_SOLVER_PRIORITIZED 4u      /* batch: prioritized sweeping, to the same values as value
+                                           iteration with fewer backups where there are many classes and
+                                           several interactions to a transition */
 
 /* config.untried: what a class-action pair without interactions is worth to the batch solvers. */
 #define RLVC_UNTRIED_EXCLUDED 0u   /* it does not count in the maximum over actions */
@@ -261,7 +264,8 @@ typedef struct rlvc_statistics {
     uint32_t last_split;   /* the step k at which the newest split was made; 0 if none */
     uint32_t refused;      /* splits that proved real but found the tree full, since init */
     uint32_t sweeps;       /* of the last solution */
-    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep */
+    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep; prioritized:
+                              the most by which any V might still change at once */
 } rlvc_statistics;
 
 /* @return RLVC_OK. O(splits). */
