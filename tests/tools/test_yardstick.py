@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: MIT
+"""The yardstick: what it knows of its worlds, what it measures, prints, refuses and leaves behind.
+
+Needs Gymnasium, tqdm and the Python package, and is left out where they are not. Short runs; none depends
+on the clock.
+"""
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import termios
+import time
+from pathlib import Path
+
+import pytest
+
+np = pytest.importorskip("numpy")
+gymnasium = pytest.importorskip("gymnasium")
+pytest.importorskip("tqdm")
+rlvc = pytest.importorskip("rlvc")
+
+BENCH = Path(__file__).resolve().parents[2] / "tools" / "bench"
+sys.path.insert(0, str(BENCH))
+
+from yardstick import learners, options, runs, table, tasks, worlds  # noqa: E402
+
+ENVIRONMENT = {
+    **os.environ, "PYTHONPATH": os.pathsep.join([str(BENCH), os.environ.get("PYTHONPATH", "")]),
+}
+COMMAND = [sys.executable, "-B", "-m", "yardstick"]
+
+
+def run(*arguments, cwd, program=COMMAND):
+    return subprocess.run([*program, *arguments], cwd=cwd, env=ENVIRONMENT, capture_output=True,
+                          text=True, timeout=300)
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+# ------------------------------------------------------------------------- the worlds
+
+def sutton():
+    return worlds.maze_world(tasks._maze("sutton"), 17)
+
+
+def lake(slippery):
+    env = gymnasium.make("FrozenLake-v1", is_slippery=slippery)
+    return worlds.table_world(env, [worlds.binary(np.arange(16), 4)], 6)
+
+
+def test_known_optima():
+    assert lake(False).best_return(0.99) == pytest.approx(1)
+    assert lake(True).best_return(0.99) == pytest.approx(0.7401649)
+    assert len(sutton().reachable) == 46
+
+
+@pytest.mark.parametrize(("world", "fewest"), [(lake(False), 5), (lake(True), 9)])
+def test_fewest_leaves(world, fewest):
+    assert world.fewest_leaves(0.99) == fewest
+
+
+def test_fewest_leaves_by_trying_all_trees():
+    """Against a search that knows nothing of cubes, on mazes of 3 x 3 cells."""
+
+    def search(cells, best):
+        if len(cells) == 0 or best[cells].all(axis=0).any():
+            return 1
+        found = [
+            search(cells[bits[cells, b] == 0], best) + search(cells[bits[cells, b] == 1], best)
+            for b in range(bits.shape[1])
+            if 0 < bits[cells, b].sum() < len(cells)
+        ]
+        return min(found)
+
+    random = np.random.default_rng(1)
+    for _ in range(20):
+        signs = np.where(random.random(9) < 0.2, "#", ".")
+        signs[[0, 8]] = ".", "*"
+        rows = ["".join(row) for row in signs.reshape(3, 3)]
+        world = worlds.maze_world(rows, 0)
+        bits = world.bits[world.reachable]
+        best = world.best_actions(0.9)
+        assert world.fewest_leaves(0.9) == search(np.arange(len(bits)), best), rows
+
+
+def test_a_maze_is_what_the_environment_plays():
+    world = sutton()
+    env = gymnasium.make("rlvc/BinaryGridworld-v0", distractors=17)
+    random = np.random.default_rng(2)
+    observation, _ = env.reset(seed=3)
+    for _ in range(2000):
+        state, action = world.state_of(observation), int(random.integers(4))
+        observation, reward, over, _, _ = env.step(action)
+        assert (reward, over) == (world.reward[state, action, 0], world.over[state, action, 0])
+        if over:
+            observation, _ = env.reset()
+        else:
+            assert world.state_of(observation) == world.following[state, action, 0]
+
+
+def test_an_exact_return_is_what_playing_gives():
+    world, random = lake(True), np.random.default_rng(4)
+    env = worlds.Seen(worlds.Played(world), world, seed=5)
+    table_of = random.integers(4, size=2**10)  # a policy that looks at the distractors, too
+    weights = 1 << np.arange(10)
+    exact = world.evaluate(table_of[world.looks @ weights])
+    total, episodes = 0.0, 4000
+    env.reset(seed=6)
+    for _ in range(episodes):
+        observation, over = env.reset()[0], False
+        while not over:
+            observation, reward, ended, cut, _ = env.step(table_of[observation @ weights])
+            total, over = total + reward, ended or cut
+    assert total / episodes == pytest.approx(exact, abs=4 * (exact / episodes) ** 0.5)
+
+
+def test_a_random_walk_takes_as_long_as_is_said():
+    world = worlds.maze_world(["...", ".#.", "..*"], 0, 0, earned=1.0, cost=0.0, limit=7)
+    env, random, taken, found = worlds.Played(world), np.random.default_rng(7), 0, 0
+    env.reset(seed=8)
+    while found < 3000:
+        taken += 1
+        _, reward, over, cut, _ = env.step(int(random.integers(4)))
+        found += reward > 0
+        if over or cut:
+            env.reset()
+    assert taken / found == pytest.approx(world.random_walk(), rel=0.08)
+
+
+def test_walls_change_at_the_end_of_an_episode():
+    envs = [worlds.Played(worlds.maze_world([row], 0)) for row in ("..*", "*..")]
+    env = worlds.Changing(*envs, after=3)
+    env.reset(seed=0)
+    moves, over = 0, False
+    while moves < 3 or not over:
+        assert env.now is envs[0]
+        _, _, over, _, _ = env.step(1)
+        moves += 1
+        if over and moves < 3:
+            env.reset()
+    env.reset()
+    assert env.now is envs[1]
+
+
+def test_reached():
+    looks = [(n, tasks.Look(0.0, None, good)) for n, good in
+             ((1, True), (2, False), (3, True), (4, True), (5, False), (6, True))]
+    assert tasks.reached(looks) == 6
+    assert tasks.reached(looks, last=4) == 3
+    assert tasks.reached(looks, first=4) == 2
+    assert tasks.reached(looks, last=2) is None
+
+
+# ------------------------------------------------------------------------- measuring
+
+def test_tasks_and_learners_are_those_of_the_help():
+    assert list(tasks.TASKS) == list(options.TASKS)
+    assert list(learners.LEARNERS) == list(options.LEARNERS)
+
+
+def test_a_run_and_its_table(tmp_path):
+    arguments = ["--tasks", "lake,nothing", "--learners", "rlvc,q", "--seeds", "1",
+                 "--peer-seeds", "1", "--jobs", "2", "--json", "out.json"]
+    done = run(*arguments, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"^\| lake +\| rlvc +\| +1 \|", done.stdout, re.MULTILINE)
+    assert re.search(r"^\| lake +\| Q-learning", done.stdout, re.MULTILINE)
+    assert re.search(r"^\| nothing +\| rlvc +\| +10 \|", done.stdout, re.MULTILINE)
+    assert re.search(r"^- (met|MISSED): lake: return after 1,000", done.stdout, re.MULTILINE)
+    assert "epsilon" in done.stdout
+    assert files(tmp_path) == ["out.json"]
+    report = json.loads((tmp_path / "out.json").read_text())
+    assert report["ended"] is None
+    assert len(report["runs"]) == 12
+    first = report["runs"][0]
+    assert (first["task"], first["learner"], first["seed"]) == ("lake", "rlvc", 1)
+    assert first["looks"][-1][0] == 1000
+    again = runs.measure("lake", "rlvc", 1)
+    assert {k: v for k, v in again.items() if k != "seconds"} == \
+        {k: v for k, v in first.items() if k != "seconds"}
+
+
+def test_a_record_of_a_change(monkeypatch):
+    task = tasks.TASKS["changing"]()
+    monkeypatch.setitem(learners.LEARNERS, "rlvc", learners.Learner(
+        lambda task, seed, check: [check(n, lambda rows: act(rows, n)) for n in range(1000, 7000, 1000)]
+        and {"leaves": 1, "distractors": 0, "bytes": 1}))
+
+    def act(rows, n):
+        """Optimal from 1,000 interactions on, and again 2,000 after the change."""
+        name = "sutton_changed" if n >= 5000 else "sutton"
+        world = worlds.maze_world(tasks._maze(name), 17)
+        best = world.solve(0.9).argmax(axis=1)
+        return best[[world.state_of(row) for row in rows]]
+
+    record = runs.measure("changing", "rlvc", 1)
+    assert (record["reached"], record["reached_again"], record["again"]) == (1000, 2000, 2)
+    text = table.render([record], ["changing"], ["rlvc"])
+    assert re.search(r"changing, again.*2,000", text)
+    assert f"- met: changing: {task.bars[0].text}: 2 " in text
+
+
+# ------------------------------------------------------------------------- refusing, and ending early
+
+@pytest.mark.parametrize("arguments", [
+    ["--tasks", "lakes"], ["--learners", ""], ["--seeds", "0"], ["--jobs", "x"], ["more"],
+])
+def test_refuses(arguments, tmp_path):
+    done = run(*arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "tools/yardstick: error" in done.stderr
+    assert files(tmp_path) == []
+
+
+def test_help_needs_nothing(tmp_path):
+    program = [sys.executable, "-I", "-S", str(BENCH / "yardstick" / "options.py")]
+    done = run("--help", cwd=tmp_path, program=program)
+    assert done.returncode == 0
+    for option in "seeds peer-seeds tasks learners jobs json".split():
+        assert f"--{option}" in done.stdout
+
+
+def test_a_file_that_cannot_be_written(tmp_path):
+    done = run("--tasks", "lake", "--json", "no/such/out.json", cwd=tmp_path)
+    assert done.returncode == 1 and "no/such/out.json" in done.stderr
+    assert done.stdout == ""
+
+
+def test_a_peer_that_is_missing_is_said_to_be(tmp_path):
+    lacking = [sys.executable, "-B", "-c",
+               "import sys; sys.modules['torch'] = None; from yardstick.__main__ import main; sys.exit(main())"]
+    done = run("--tasks", "lake", "--learners", "dqn", cwd=tmp_path, program=lacking)
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"^- missing: DQN, which needs python3-torch.*tools/setup peers", done.stdout, re.M)
+
+
+def test_a_run_that_fails_does_not_end_the_others(tmp_path):
+    (tmp_path / "sklearn.py").write_text("raise ImportError('broken on purpose')\n")
+    environment = {**ENVIRONMENT, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ENVIRONMENT['PYTHONPATH']}"}
+    done = subprocess.run(
+        [*COMMAND, "--tasks", "lake", "--learners", "rlvc,fqi", "--seeds", "1", "--peer-seeds", "1"],
+        cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 1
+    assert "lake fqi 1 failed" in done.stderr and "broken on purpose" in done.stderr
+    assert re.search(r"^\| lake +\| rlvc +\| +1 \|", done.stdout, re.MULTILINE)
+
+
+def group(number):
+    """The processes of a group that are not over."""
+    left = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, of = stat.read_text().rpartition(")")[2].split()[:3]
+        except OSError:
+            continue  # over meanwhile
+        if int(of) == number and state not in "ZX":
+            left.append(stat.parent.name)
+    return left
+
+
+def test_ctrl_c_prints_what_is_there(tmp_path):
+    ours, theirs = pty.openpty()
+    termios.tcsetwinsize(theirs, (24, 100))
+    process = subprocess.Popen(
+        [*COMMAND, "--tasks", "lake,far", "--learners", "rlvc", "--seeds", "2", "--jobs", "1",
+         "--json", "out.json"],
+        cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=theirs, text=True,
+        start_new_session=True)
+    os.close(theirs)
+    said = ""
+    while "2/4" not in said:
+        said += os.read(ours, 4096).decode(errors="replace")
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    out, _ = process.communicate(timeout=60)
+    os.close(ours)
+    assert process.returncode == 130
+    assert re.search(r"^\| lake +\| rlvc +\| +2 \|", out, re.MULTILINE)
+    assert files(tmp_path) == ["out.json"]
+    report = json.loads((tmp_path / "out.json").read_text())
+    assert report["ended"] == "interrupted"
+    assert {r["task"] for r in report["runs"]} == {"lake"}
+    for _ in range(6000):  # those that look after others see their parent's end and go
+        if not group(process.pid):
+            break
+        time.sleep(0.01)
+    assert group(process.pid) == []

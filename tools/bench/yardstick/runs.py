@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Runs: one as a record, and many in processes of their own."""
+
+import concurrent.futures
+import math
+import multiprocessing
+import signal
+import sys
+import time
+import traceback
+import warnings
+
+import tqdm
+
+from .learners import LEARNERS
+from .tasks import TASKS, reached
+
+
+def _finite(value):
+    return None if value is None or math.isnan(value) else value
+
+
+def measure(task_name, learner, seed):
+    """One run, as a record for the report."""
+    task = TASKS[task_name]()
+    looks, looked = [], 0.0
+
+    def check(interactions, act):
+        nonlocal looked
+        start = time.process_time()
+        looks.append((interactions, task.look(act, interactions)))
+        looked += time.process_time() - start
+
+    start = time.process_time()
+    found = LEARNERS[learner].learn(task, seed, check)
+    seconds = time.process_time() - start - looked
+    record = {
+        "task": task_name, "learner": learner, "seed": seed,
+        "leaves": None, "distractors": None, **found,
+        "seconds": seconds,
+        "value": _finite(looks[-1][1].value),
+        "optimal": looks[-1][1].optimal,
+        "reached": reached(looks, last=task.changed or math.inf),
+    }  # fmt: skip
+    if task.changed is not None:
+        record["reached_again"] = reached(looks, first=task.changed)
+        both = record["reached"] is not None and record["reached_again"] is not None
+        record["again"] = record["reached_again"] / record["reached"] if both else None
+    record["looks"] = [[done, _finite(look.value), look.optimal] for done, look in looks]
+    return record
+
+
+def _attempt(job):
+    """A run in a process of its own; if it fails the others go on."""
+    try:
+        return measure(*job)
+    except Exception:
+        return {"task": job[0], "learner": job[1], "seed": job[2], "error": traceback.format_exc()}
+
+
+def _prepare():
+    warnings.simplefilter("ignore")
+
+
+def run_all(jobs, processes):
+    """The records of those jobs that ended, and why the others did not: None, or a word."""
+    records, ended = [], None
+    context = multiprocessing.get_context("spawn")
+    pool = concurrent.futures.ProcessPoolExecutor(processes, context, _prepare)
+    heard = signal.signal(signal.SIGINT, signal.SIG_IGN)  # which the children inherit
+    futures = [pool.submit(_attempt, job) for job in jobs]
+    signal.signal(signal.SIGINT, heard)
+    bar = tqdm.tqdm(total=len(jobs), unit=" runs", dynamic_ncols=True, disable=None)
+    try:
+        for future in concurrent.futures.as_completed(futures):
+            records.append(future.result())
+            bar.update()
+            bar.set_postfix_str("{task} {learner} {seed}".format(**records[-1]))
+    except KeyboardInterrupt:
+        ended = "interrupted"
+        for child in multiprocessing.active_children():
+            child.terminate()
+    except concurrent.futures.process.BrokenProcessPool:
+        ended = "a process of its own died"
+    pool.shutdown(wait=True, cancel_futures=True)
+    bar.close()
+    sys.stderr.flush()
+    order = {job: i for i, job in enumerate(jobs)}
+    records.sort(key=lambda r: order[r["task"], r["learner"], r["seed"]])
+    return records, ended

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""The table, in Markdown: a row for each task and learner, what they mean, and each bar."""
+
+import dataclasses
+import math
+import statistics
+
+import rlvc
+from rlvc.learning import default_config
+
+from . import options
+from .tasks import TASKS, median, worst
+
+NONE = "-"
+HEAD = (
+    "task", "learner", "runs", "return", "optimal", "reached", "worst", "leaves", "fewest",
+    "distracted", "seconds", "KB",
+)  # fmt: skip
+LEGEND = """\
+Medians over runs. Return: of an episode by the greedy policy at the end; optimal: the share of states
+where it does nothing but what is optimal; both are exact, over all states and distractors, but for
+CartPole. Reached, and in the worst run: interactions from which on the policy is as good as the task
+asks, whenever looked at. Leaves of the tree, and the fewest of any tree over the bits that is optimal
+everywhere. Distracted: runs that test a distractor. Seconds: of processor time. KB: of the agent, or of
+what it learns."""
+
+
+def _number(value, form=",.0f"):
+    if value is None:
+        return NONE
+    return "never" if math.isinf(value) else format(value, form)
+
+
+def _median(records, key, form=",.0f", scale=1.0):
+    """The median over runs; a dash where there is no such figure."""
+    values = [record[key] for record in records if record[key] is not None]
+    return _number(statistics.median(values) * scale, form) if values else NONE
+
+
+def _reached(records, key):
+    return _number(median(key)(records)), _number(worst(key)(records))
+
+
+def _rows(task, learner, records):
+    judged = records[0]["value"] is not None
+    distracted = [record["distractors"] for record in records]
+    yield (
+        task.name,
+        options.LEARNERS[learner],
+        str(len(records)),
+        _median(records, "value", ".3g"),
+        _median(records, "optimal", ".1f", 100) + ("" if records[0]["optimal"] is None else " %"),
+        *(_reached(records, "reached") if judged else (NONE, NONE)),
+        _median(records, "leaves"),
+        _number(task.fewest),
+        NONE if None in distracted else str(sum(count > 0 for count in distracted)),
+        _median(records, "seconds", ",.1f"),
+        _median(records, "bytes", ",.1f", 0.001),
+    )
+    if task.changed is not None:
+        again = _reached(records, "reached_again")
+        yield tuple(
+            {"task": task.name + ", again", "reached": again[0], "worst": again[1]}.get(name, "")
+            for name in HEAD
+        )
+
+
+def _aligned(rows):
+    """Rows of words as a table; the first two columns lean to the left."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = []
+    for row in rows:
+        cells = [
+            cell.ljust(width) if i < 2 else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        lines.append("| " + " | ".join(cells) + " |")
+    rule = ["-" * width if i < 2 else "-" * (width - 1) + ":" for i, width in enumerate(widths)]
+    return [lines[0], "| " + " | ".join(rule) + " |", *lines[1:]]
+
+
+def _about(task):
+    best = f"; best return {task.world.best_return(task.discount):.3g}" if task.world else ""
+    return (
+        f"- {task.name}: {task.title}; {task.about}{best}; discount {task.discount}, "
+        f"{task.interactions:,} interactions"
+    )
+
+
+def _bars(task, records):
+    for bar in task.bars:
+        figure = bar.figure(records)
+        yield (
+            f"- {'met' if bar.met(figure) else 'MISSED'}: {task.name}: {bar.text}: "
+            f"{_number(figure, ',.5g')} ({'at least' if bar.least else 'at most'} {bar.limit:,.5g})"
+        )
+
+
+def _configuration():
+    """The fields of the config that are the same in all tasks."""
+    own = {"actions", "capacity", "seed", "discount"}
+    fields = dataclasses.asdict(default_config(1, 1, 0, {}, False)).items()
+    return ", ".join(f"{name} {value}" for name, value in fields if name not in own)
+
+
+def render(records, tasks, learners):
+    """The whole text, of the runs that ended."""
+    rows, bars = [HEAD], []
+    for name in tasks:
+        for learner in learners:
+            found = [r for r in records if (r["task"], r["learner"]) == (name, learner)]
+            if found:
+                rows += _rows(TASKS[name](), learner, found)
+                if learner == "rlvc":
+                    bars += _bars(TASKS[name](), found)
+    return "\n".join(
+        [
+            *_aligned(rows),
+            "",
+            LEGEND,
+            "",
+            *(_about(TASKS[name]()) for name in tasks),
+            "",
+            f"rlvc {rlvc.__version__}, in all tasks the defaults of rlvc.learn but for the discount and "
+            "the length of the run: a learning step every hundredth of it, at least 100 interactions; "
+            f"room for all interactions; {_configuration()}.",
+            "",
+            *bars,
+        ]
+    )

@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: MIT
+"""The tasks, and the bars that they are held to.
+
+One configuration serves them all: ``rlvc.learn`` is told a task's discount, the length of its run and a
+seed, and nothing else.
+"""
+
+import dataclasses
+import functools
+import math
+import statistics
+from collections.abc import Callable
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+
+import rlvc.envs  # noqa: F401 - registers the mazes
+
+from . import options, worlds
+
+MAZES = Path(__file__).resolve().parents[3] / "examples" / "gridworld" / "mazes"
+DISTRACTORS = 6
+EPISODES = 100  # played where a return cannot be computed
+_CLOSE = 1e-6
+
+
+@dataclasses.dataclass(frozen=True)
+class Look:
+    """What a policy is worth: the return of an episode; the share of states in which it does nothing
+    but what is optimal, where that is known; whether it is as good as the task asks."""
+
+    value: float
+    optimal: float | None
+    good: bool
+
+
+@dataclasses.dataclass(frozen=True)
+class Bar:
+    """Something that the records of all runs of a task must show."""
+
+    text: str
+    figure: Callable[[list], float]
+    limit: float
+    least: bool = False  # whether the figure must be at least that; otherwise at most
+
+    def met(self, figure):
+        return figure >= self.limit if self.least else figure <= self.limit
+
+
+@dataclasses.dataclass(frozen=True)
+class Task:
+    """A task: ``make(seed)`` gives its environment, ``look(act, interactions)`` judges a policy.
+
+    ``act`` gives the greedy actions of an array of observations.
+    """
+
+    name: str
+    about: str  # what is not in the name
+    discount: float
+    interactions: int
+    make: Callable
+    look: Callable
+    bars: tuple
+    world: worlds.World | None = None
+    changed: int | None = None  # interactions before the world changes
+    peers: tuple = ("q", "fqi", "dqn")
+    runs_a_seed: int = 1
+
+    @property
+    def title(self):
+        return options.TASKS[self.name]
+
+    @functools.cached_property
+    def fewest(self):
+        """Leaves of the smallest tree that acts optimally; None where it is not known."""
+        return self.world.fewest_leaves(self.discount) if self.world else None
+
+
+def reached(looks, first=0, last=math.inf):
+    """From how many interactions on every look is good, of those after ``first`` and up to ``last``.
+
+    Counted from ``first``. ``looks`` are pairs (interactions, Look). None: the last one is not good.
+    """
+    found = None
+    for interactions, look in looks:
+        if first < interactions <= last:
+            found = (found or interactions) if look.good else None
+    return None if found is None else found - first
+
+
+# ------------------------------------------------------------------ figures over the runs of a task
+
+
+def _values(records, key):
+    return [math.inf if record[key] is None else record[key] for record in records]
+
+
+def median(key):
+    """Over runs; one that never got there counts as infinite."""
+    return lambda records: statistics.median(_values(records, key))
+
+
+def worst(key):
+    return lambda records: max(_values(records, key))
+
+
+def share(holds):
+    return lambda records: statistics.fmean(bool(holds(record)) for record in records)
+
+
+CLEAN = Bar(
+    "share of runs without a test on a distractor",
+    share(lambda record: record["distractors"] == 0),
+    0.95,
+    True,
+)
+
+# ------------------------------------------------------------------ the tasks
+
+
+def _judge(world, act, discount, asked):
+    """Look at a policy in a world; ``asked(value, optimal)`` says whether it is good."""
+    chosen = act(world.looks)
+    value, optimal = world.evaluate(chosen), world.optimal_states(chosen, discount)
+    return Look(value, optimal, asked(value, optimal))
+
+
+def _everywhere(value, optimal):
+    return optimal == 1
+
+
+def _maze(name):
+    return (MAZES / f"{name}.txt").read_text(encoding="utf-8").split()
+
+
+def binary():
+    noise, discount = 11 + DISTRACTORS, 0.9
+    world = worlds.maze_world(_maze("sutton"), noise)
+    return Task(
+        "binary", "asked: all cells optimal", discount, 2500,
+        lambda seed: gymnasium.make("rlvc/BinaryGridworld-v0", distractors=noise),
+        lambda act, done: _judge(world, act, discount, _everywhere),
+        (
+            Bar("interactions until all cells are optimal, median", median("reached"), 1000),
+            Bar("the same, worst run", worst("reached"), 2500),
+            CLEAN,
+        ),
+        world,
+    )  # fmt: skip
+
+
+def _text(name, make, parts, interactions, wanted):
+    discount, wanted = 0.99, wanted - _CLOSE
+    world = worlds.table_world(make(), parts, DISTRACTORS)
+    return Task(
+        name, f"asked: a return of {wanted:.4g}", discount, interactions,
+        lambda seed: worlds.Seen(make(), world, seed),
+        lambda act, done: _judge(world, act, discount, lambda value, _: value >= wanted),
+        (
+            Bar(f"return after {interactions:,} interactions, median", median("value"), wanted, True),
+            CLEAN,
+        ),
+        world,
+    )  # fmt: skip
+
+
+def slippery():
+    make = functools.partial(gymnasium.make, "FrozenLake-v1", is_slippery=True)
+    return _text("slippery", make, [worlds.binary(np.arange(16), 4)], 7500, 0.73)
+
+
+def lake():
+    make = functools.partial(gymnasium.make, "FrozenLake-v1", is_slippery=False)
+    return _text("lake", make, [worlds.binary(np.arange(16), 4)], 1000, 1.0)
+
+
+def taxi():
+    s = np.arange(500)
+    row, column, passenger, destination = s // 100, s // 20 % 5, s // 4 % 5, s % 4
+    numbers = ((row, 3), (column, 3), (passenger, 3), (destination, 2))
+    parts = [worlds.binary(*number) for number in numbers]
+    return _text("taxi", functools.partial(gymnasium.make, "Taxi-v3"), parts, 30000, 7.8)
+
+
+def _balance(act):
+    """The mean return of EPISODES episodes of CartPole, which are played side by side."""
+    limit = gymnasium.spec("CartPole-v1").max_episode_steps
+    env = gymnasium.make_vec(
+        "CartPole-v1", num_envs=EPISODES, vectorization_mode="vector_entry_point"
+    )
+    observations, _ = env.reset(seed=0)
+    alive, total = np.ones(EPISODES, bool), 0
+    for _ in range(limit):
+        observations, _, fell, _, _ = env.step(act(observations).astype(np.int64))
+        total += alive.sum()
+        alive &= ~fell
+        if not alive.any():
+            break
+    return float(total / EPISODES)
+
+
+def cartpole():
+    def look(act, done):
+        value = _balance(act)
+        return Look(value, None, value >= 475)
+
+    good = share(lambda record: record["value"] >= 475)
+
+    return Task(
+        "cartpole", f"asked: a return of 475, mean of {EPISODES} episodes", 0.99, 20000,
+        lambda seed: gymnasium.make("CartPole-v1"), look,
+        (Bar("share of runs with a return of 475", good, 0.9, True),),
+        peers=("fqi", "dqn"),
+    )  # fmt: skip
+
+
+def far():
+    discount = 0.99
+    world = worlds.maze_world(_maze("rooms20"), DISTRACTORS, 0, earned=1.0, cost=0.0, limit=300)
+    best = world.solve(discount)[0].max()
+    shortest = 1 + round(math.log(best) / math.log(discount))
+    sprint = dataclasses.replace(world, limit=shortest)
+
+    def look(act, done):
+        found = sprint.evaluate(act(world.looks))
+        return _judge(world, act, discount, lambda value, optimal: found >= 1 - _CLOSE)
+
+    return Task(
+        "far", f"asked: the shortest way, of {shortest} moves; a random walk finds the reward after "
+        f"{world.random_walk():,.0f} moves (mean)", discount, 30000,
+        lambda seed: worlds.Seen(worlds.Played(world), world, seed), look,
+        (
+            Bar("interactions until the way is a shortest one, median", median("reached"), 30000),
+            CLEAN,
+        ),
+        world,
+    )  # fmt: skip
+
+
+def _random_rewards(name, walked, bars):
+    return Task(
+        name, "asked: nothing", 0.9, 2000, lambda seed: worlds.Nothing(seed, walked),
+        lambda act, done: Look(math.nan, None, True), bars, peers=(), runs_a_seed=10,
+    )  # fmt: skip
+
+
+def nothing():
+    grown = share(lambda record: record["leaves"] > 1)
+    return _random_rewards("nothing", False, (Bar("share of runs that grew a test", grown, 0.05),))
+
+
+def wander():
+    return _random_rewards("wander", True, ())
+
+
+def changing():
+    noise, discount, after = 11 + DISTRACTORS, 0.9, 3000
+    names = ("sutton", "sutton_changed")
+    before, later = (worlds.maze_world(_maze(name), noise) for name in names)
+
+    def make(seed):
+        envs = (
+            gymnasium.make("rlvc/BinaryGridworld-v0", maze=MAZES / f"{n}.txt", distractors=noise)
+            for n in names
+        )
+        return worlds.Changing(*envs, after)
+
+    def look(act, done):
+        return _judge(later if done > after else before, act, discount, _everywhere)
+
+    return Task(
+        "changing", f"asked: all cells optimal, before the walls change after {after:,} interactions "
+        "and again", discount, 2 * after, make, look,
+        (
+            Bar("interactions until all cells are optimal again, by those of learning it first, median",
+                median("again"), 3),
+            CLEAN,
+        ),
+        later, changed=after, peers=("q", "dqn"),
+    )  # fmt: skip
+
+
+_MAKERS = (binary, lake, slippery, taxi, cartpole, far, nothing, wander, changing)
+TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}
