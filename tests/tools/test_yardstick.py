@@ -180,6 +180,7 @@ def test_a_run_and_its_table(tmp_path):
     first = report["runs"][0]
     assert (first["task"], first["learner"], first["seed"]) == ("lake", "rlvc", 1)
     assert first["looks"][-1][0] == 1000
+    assert 1 < first["compacted"] <= first["leaves"]
     again = runs.measure("lake", "rlvc", 1)
     assert {k: v for k, v in again.items() if k != "seconds"} == \
         {k: v for k, v in first.items() if k != "seconds"}
@@ -189,7 +190,7 @@ def test_a_record_of_a_change(monkeypatch):
     task = tasks.TASKS["changing"]()
     monkeypatch.setitem(learners.LEARNERS, "rlvc", learners.Learner(
         lambda task, seed, check: [check(n, lambda rows: act(rows, n)) for n in range(1000, 7000, 1000)]
-        and {"leaves": 1, "distractors": 0, "bytes": 1}))
+        and {"leaves": 1, "distractors": 0, "bytes": 1, "compact": lambda: (1, lambda rows: act(rows, 0))}))
 
     def act(rows, n):
         """Optimal from 1,000 interactions on, and again 2,000 after the change."""
@@ -200,6 +201,8 @@ def test_a_record_of_a_change(monkeypatch):
 
     record = runs.measure("changing", "rlvc", 1)
     assert (record["reached"], record["reached_again"], record["again"]) == (1000, 2000, 2)
+    assert (record["compacted"], record["optimal"]) == (1, 1.0)
+    assert record["kept"] < record["value"] == pytest.approx(task.world.best_return(0.9))
     text = table.render([record], ["changing"], ["rlvc"])
     assert re.search(r"changing, again.*2,000", text)
     assert f"- met: changing: {task.bars[0].text}: 2 " in text

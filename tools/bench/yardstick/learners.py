@@ -2,7 +2,8 @@
 """The learners: ours, and its peers. Each has ``learn(task, seed, check)``.
 
 ``check(interactions, act)`` is called now and then with the greedy policy so far, ``act`` giving the
-actions of an array of observations. What is returned says how large the result is.
+actions of an array of observations. What is returned says how large the result is; ``compact`` in it, if
+there, gives the leaves and the actions of a policy made compact.
 """
 
 import dataclasses
@@ -16,11 +17,17 @@ import rlvc
 # ------------------------------------------------------------------ ours
 
 
-def rlvc_act(run):
-    def act(rows):
-        return run.agent.predict(np.ascontiguousarray(run.encoder.encode_many(rows))).action
+def _packed(run, rows):
+    return np.ascontiguousarray(run.encoder.encode_many(rows))
 
-    return act
+
+def _compact(run):
+    policy = run.agent.compact()
+    return policy.info.leaves, lambda rows: policy.act(_packed(run, rows))
+
+
+def rlvc_act(run):
+    return lambda rows: run.agent.predict(_packed(run, rows)).action
 
 
 def learn_rlvc(task, seed, check):
@@ -29,11 +36,12 @@ def learn_rlvc(task, seed, check):
         task.make(seed), task.interactions, seed=seed, discount=task.discount,
         callback=lambda run: check(run.history[-1].interactions, rlvc_act(run)),
     )  # fmt: skip
-    noise = set() if task.world is None else set(task.world.distractors.tolist())
+    noise = [] if task.world is None else task.world.distractors.tolist()
     return {
         "leaves": run.agent.classes,
-        "distractors": sum(int(split.feature) in noise for split in run.agent.splits),
+        "distractors": sum(int(split.feature) in noise for split in run.agent.splits) if noise else 0,
         "bytes": run.agent.memory_bytes,
+        "compact": lambda: _compact(run),
     }
 
 

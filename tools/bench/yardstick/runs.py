@@ -34,9 +34,10 @@ def measure(task_name, learner, seed):
     start = time.process_time()
     found = LEARNERS[learner].learn(task, seed, check)
     seconds = time.process_time() - start - looked
+    compact = found.pop("compact", None)
     record = {
         "task": task_name, "learner": learner, "seed": seed,
-        "leaves": None, "distractors": None, **found,
+        "leaves": None, "distractors": None, "compacted": None, "kept": None, **found,
         "seconds": seconds,
         "value": _finite(looks[-1][1].value),
         "optimal": looks[-1][1].optimal,
@@ -46,6 +47,9 @@ def measure(task_name, learner, seed):
         record["reached_again"] = reached(looks, first=task.changed)
         both = record["reached"] is not None and record["reached_again"] is not None
         record["again"] = record["reached_again"] / record["reached"] if both else None
+    if compact:
+        record["compacted"], act = compact()
+        record["kept"] = _finite(task.look(act, task.interactions).value)
     record["looks"] = [[done, _finite(look.value), look.optimal] for done, look in looks]
     return record
 

@@ -13,16 +13,16 @@ from .tasks import TASKS, median, worst
 
 NONE = "-"
 HEAD = (
-    "task", "learner", "runs", "return", "optimal", "reached", "worst", "leaves", "fewest",
-    "distracted", "seconds", "KB",
+    "task", "learner", "runs", "return", "optimal", "reached", "worst", "leaves", "compacted", "kept",
+    "fewest", "distracted", "seconds", "KB",
 )  # fmt: skip
 LEGEND = """\
 Medians over runs. Return: of an episode by the greedy policy at the end; optimal: the share of states
 where it does nothing but what is optimal; both are exact, over all states and distractors, but for
 CartPole. Reached, and in the worst run: interactions from which on the policy is as good as the task
-asks, whenever looked at. Leaves of the tree, and the fewest of any tree over the bits that is optimal
-everywhere. Distracted: runs that test a distractor. Seconds: of processor time. KB: of the agent, or of
-what it learns."""
+asks, whenever looked at. Leaves of the tree; of the policy that is made compact in the end, which keeps
+a return; and the fewest of any tree over the bits that is optimal everywhere. Distracted: runs that test
+a distractor. Seconds: of processor time. KB: of the agent, or of what it learns."""
 
 
 def _number(value, form=",.0f"):
@@ -52,6 +52,8 @@ def _rows(task, learner, records):
         _median(records, "optimal", ".1f", 100) + ("" if records[0]["optimal"] is None else " %"),
         *(_reached(records, "reached") if judged else (NONE, NONE)),
         _median(records, "leaves"),
+        _median(records, "compacted"),
+        _median(records, "kept", ".3g"),
         _number(task.fewest),
         NONE if None in distracted else str(sum(count > 0 for count in distracted)),
         _median(records, "seconds", ",.1f"),
