@@ -42,6 +42,7 @@ def learn_rlvc(task, seed, check):
         "distractors": sum(int(split.feature) in noise for split in run.agent.splits) if noise else 0,
         "bytes": run.agent.memory_bytes,
         "compact": lambda: _compact(run),
+        "config": dataclasses.asdict(run.agent.config),
     }
 
 

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The table, in Markdown: a row for each task and learner, what they mean, and each bar."""
 
-import dataclasses
 import math
 import statistics
 
 import rlvc
-from rlvc.learning import default_config
 
 from . import options
 from .tasks import TASKS, median, worst
@@ -98,11 +96,23 @@ def _bars(task, records):
         )
 
 
-def _configuration():
-    """The fields of the config that are the same in all tasks."""
+def _configuration(records):
+    """What our learner was told, of all that were used: but for what a task chooses, the same."""
     own = {"actions", "capacity", "seed", "discount"}
-    fields = dataclasses.asdict(default_config(1, 1, 0, {}, False)).items()
-    return ", ".join(f"{name} {value}" for name, value in fields if name not in own)
+    values = {}
+    for record in records:
+        for name, value in record.get("config", {}).items():
+            if name not in own and value not in values.setdefault(name, []):
+                values[name].append(value)
+    if not values:
+        return []
+    fields = ", ".join(f"{name} {' or '.join(map(str, used))}" for name, used in values.items())
+    return [
+        f"rlvc {rlvc.__version__}, in all tasks the defaults of rlvc.learn but for the discount and the "
+        "length of the run: a learning step every hundredth of it, at least 100 interactions; room for "
+        f"all interactions; {fields}.",
+        "",
+    ]
 
 
 def render(records, tasks, learners):
@@ -123,10 +133,7 @@ def render(records, tasks, learners):
             "",
             *(_about(TASKS[name]()) for name in tasks),
             "",
-            f"rlvc {rlvc.__version__}, in all tasks the defaults of rlvc.learn but for the discount and "
-            "the length of the run: a learning step every hundredth of it, at least 100 interactions; "
-            f"room for all interactions; {_configuration()}.",
-            "",
+            *_configuration(records),
             *bars,
         ]
     )
