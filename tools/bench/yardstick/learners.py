@@ -140,17 +140,20 @@ def learn_dqn(task, seed, check, checks=20):
 
 @dataclasses.dataclass(frozen=True)
 class Learner:
-    """A learner, and what it needs: the names of modules, and the package that has each."""
+    """A learner, how it was set, and what it needs: names of modules, and the package of each."""
 
     learn: Callable
+    about: str = ""
     needs: dict = dataclasses.field(default_factory=dict)
 
 
 LEARNERS = {
     "rlvc": Learner(learn_rlvc),
-    "q": Learner(learn_q),
-    "fqi": Learner(learn_fqi, {"sklearn": "python3-sklearn"}),
-    "dqn": Learner(learn_dqn, {
+    "q": Learner(learn_q, "rate 0.1, epsilon 0.1; without distractors"),
+    "fqi": Learner(learn_fqi, "on random actions, 50 trees, 50 rounds when all of them are done", {
+        "sklearn": "python3-sklearn",
+    }),
+    "dqn": Learner(learn_dqn, "Stable-Baselines3's, with its defaults but the discount", {
         "torch": "python3-torch", "pandas": "python3-pandas", "matplotlib": "python3-matplotlib",
         "stable_baselines3": "stable-baselines3",
     }),

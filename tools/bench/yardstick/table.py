@@ -7,6 +7,7 @@ import statistics
 import rlvc
 
 from . import options
+from .learners import LEARNERS
 from .tasks import TASKS, median, worst
 
 NONE = "-"
@@ -132,6 +133,12 @@ def render(records, tasks, learners):
             LEGEND,
             "",
             *(_about(TASKS[name]()) for name in tasks),
+            "",
+            *(
+                f"- {options.LEARNERS[name]}: {LEARNERS[name].about}"
+                for name in learners
+                if LEARNERS[name].about
+            ),
             "",
             *_configuration(records),
             *bars,
