@@ -276,7 +276,8 @@ def group(number):
     return left
 
 
-def test_ctrl_c_prints_what_is_there(tmp_path):
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_ended_early_it_prints_what_is_there(how, tmp_path):
     ours, theirs = pty.openpty()
     termios.tcsetwinsize(theirs, (24, 100))
     process = subprocess.Popen(
@@ -288,7 +289,10 @@ def test_ctrl_c_prints_what_is_there(tmp_path):
     said = ""
     while "2/4" not in said:
         said += os.read(ours, 4096).decode(errors="replace")
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    if how == signal.SIGINT:
+        os.killpg(process.pid, how)  # as a terminal does
+    else:
+        os.kill(process.pid, how)
     out, _ = process.communicate(timeout=60)
     os.close(ours)
     assert process.returncode == 130

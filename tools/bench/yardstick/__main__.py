@@ -3,6 +3,7 @@
 
 import json
 import os
+import signal
 import sys
 import tempfile
 
@@ -42,6 +43,7 @@ def _write_whole(path, report):
 
 def main():
     args = options.parse()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
     if args.json and not os.access(os.path.dirname(os.path.abspath(args.json)), os.W_OK):
         sys.exit(f"tools/yardstick: --json: cannot write {args.json}")
     absent = {name: packages for name in args.learners if (packages := missing(name))}

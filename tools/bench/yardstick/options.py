@@ -57,8 +57,9 @@ def parse(arguments=None):
         description="Learns every task from many seeds, with one configuration for all, and prints a\n"
         "table: return, interactions, leaves, seconds, bytes, and whether each bar is met. It\n"
         "installs what it needs (tools/setup yardstick), but for the peers (tools/setup peers).",
-        epilog=f"Tasks and learners:\n{listed}\n\nCtrl-C ends it early and prints what is there. "
-        "Exit status: 0, or 1 if a run failed, or 130\nafter Ctrl-C. A missed bar is no failure.",
+        epilog=f"Tasks and learners:\n{listed}\n\n"
+        "Ctrl-C, or SIGTERM, ends it early and prints what is there. Exit status: 0, or\n"
+        "1 if a run failed, or 130 if ended early. A missed bar is no failure.",
     )  # fmt: skip
     parser.add_argument("--seeds", type=_count, default=20, metavar="N",
                         help="runs of rlvc on each task (20)")
