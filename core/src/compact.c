@@ -91,3 +91,9 @@ void rlvc_compact_constant(rlvc_compact *c, const char *percept) {
     rlvc_compact_number(c, ") {\n    (void)percept;\n    return ", rlvc_compact_action(c, 0));
     rlvc_compact_string(c, "u;\n}\n");
 }
+
+void rlvc_compact_float(rlvc_compact *c, float number) {
+    const int whole = number * number < 1e18f && (float)(int32_t)number == number;
+    rlvc_text_float(&c->text, number, 9);
+    rlvc_compact_string(c, whole ? ".0f" : "f");
+}

@@ -54,6 +54,10 @@ static inline void rlvc_compact_number(rlvc_compact *c, const char *before, uint
 /* `before`, the name, `behind`. */
 void rlvc_compact_name(rlvc_compact *c, const char *before, const char *behind);
 
+/* A constant of type float, by digits that tell any two floats apart. Whole numbers below 1e9 are printed as
+ * such, and lack a point. */
+void rlvc_compact_float(rlvc_compact *c, float number);
+
 /* A line of the tree for people, up to what is tested, or all of it at a leaf. */
 void rlvc_compact_line(rlvc_compact *c, uint32_t node);
 

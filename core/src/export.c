@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The policy as a C header: see rlvc/export.h. Here is what is of the domain of bits, and the public
- * function. */
+ * function; what is of the other domains has files of its own. */
 #include "rlvc/export.h"
 
 #include "rlvc/bits.h"
 #include "compact.h"
 #include "export_descriptors.h"
+#include "export_thresholds.h"
 #include "export_tree.h"
 #include "state.h"
 
@@ -165,22 +166,34 @@ static int is_identifier(const char *name) {
     return length > 0;
 }
 
+static void put_comment(exporter *e, const rlvc_domain *domain) {
+    if (domain->kind == RLVC_DOMAIN_BITS)
+        put_bits_comment(e);
+    else if (domain->kind == RLVC_DOMAIN_DESCRIPTORS)
+        rlvc_export_descriptors_comment(&e->c, (const rlvc_descriptors *)domain->ctx);
+    else
+        rlvc_export_thresholds_comment(&e->c, domain);
+}
+
+/* Returns how many bytes of constants there are. */
+static uint32_t put_policy(exporter *e, const rlvc_domain *domain) {
+    if (domain->kind == RLVC_DOMAIN_BITS)
+        return put_bits(e, domain->percept_bytes * 8u);
+    if (domain->kind == RLVC_DOMAIN_DESCRIPTORS)
+        return rlvc_export_descriptors(&e->c, (const rlvc_descriptors *)domain->ctx);
+    return rlvc_export_thresholds(&e->c);
+}
+
 static void put_header(exporter *e, const rlvc_domain *domain, rlvc_export_info *info) {
-    const int of_bits = domain->kind == RLVC_DOMAIN_BITS;
-    const rlvc_descriptors *d = (const rlvc_descriptors *)domain->ctx;
     info->leaves = e->c.tree->classes;
     info->compact = e->c.mixed + 1u;
     rlvc_compact_number(&e->c, "/* A policy learnt by rlvc: of ", info->leaves);
     rlvc_compact_number(&e->c, " classes ", info->compact);
     rlvc_compact_string(&e->c, " are left, once those that act alike are one.\n");
-    if (of_bits)
-        put_bits_comment(e);
-    else
-        rlvc_export_descriptors_comment(&e->c, d);
+    put_comment(e, domain);
     rlvc_compact_name(&e->c, " */\n#ifndef ", "_policy_h\n");
     rlvc_compact_name(&e->c, "#define ", "_policy_h\n\n");
-    info->bytes =
-        of_bits ? put_bits(e, domain->percept_bytes * 8u) : rlvc_export_descriptors(&e->c, d);
+    info->bytes = put_policy(e, domain);
     rlvc_compact_string(&e->c, "\n#endif\n");
 }
 
@@ -189,7 +202,7 @@ rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree,
                              rlvc_write write, void *ctx, rlvc_export_info *info) {
     if (!is_identifier(name))
         return RLVC_E_RANGE;
-    if (domain->kind != RLVC_DOMAIN_BITS && domain->kind != RLVC_DOMAIN_DESCRIPTORS)
+    if (domain->kind < RLVC_DOMAIN_BITS || domain->kind > RLVC_DOMAIN_THRESHOLDS)
         return RLVC_E_CONFIG;
     rlvc_export_info unwanted;
     exporter e = {{{write, ctx, RLVC_OK}, tree, policy, name, actions, 0}, 0, {0}};

@@ -8,7 +8,6 @@
 
 #include <string.h>
 
-#define DIGITS 9u /* tell any two floats apart */
 #define A_LINE 8u /* numbers of a vector */
 
 /* What the numbers of a vector are. */
@@ -61,13 +60,6 @@ void rlvc_export_descriptors_comment(rlvc_compact *c, const rlvc_descriptors *d)
 
 /* ------------------------------------------------------------------ tables */
 
-/* A constant of type float. Whole numbers below 1e9 are printed as such, and lack a point. */
-static void put_float(rlvc_compact *c, float number) {
-    const int whole = number * number < 1e18f && (float)(int32_t)number == number;
-    rlvc_text_float(&c->text, number, DIGITS);
-    rlvc_compact_string(c, whole ? ".0f" : "f");
-}
-
 static void put_byte(rlvc_compact *c, int8_t number) {
     rlvc_compact_number(c, number < 0 ? "-" : "", (uint32_t)(number < 0 ? -number : number));
 }
@@ -81,7 +73,7 @@ static void put_vector(rlvc_compact *c, const rlvc_descriptors *d, const void *f
         else {
             float number;
             memcpy(&number, vector + k * sizeof number, sizeof number);
-            put_float(c, number);
+            rlvc_compact_float(c, number);
         }
     }
 }
@@ -94,7 +86,7 @@ static void put_features(rlvc_compact *c, const rlvc_descriptors *d, int radii) 
             rlvc_compact_string(c, node ? ",\n    " : "\n    ");
             rlvc_compact_string(c, radii ? "" : "{");
             if (radii)
-                put_float(c, rlvc_descriptors_radius(rlvc_compact_feature(c, node)));
+                rlvc_compact_float(c, rlvc_descriptors_radius(rlvc_compact_feature(c, node)));
             else
                 put_vector(c, d, rlvc_compact_feature(c, node));
             rlvc_compact_string(c, radii ? "" : "}");

@@ -130,3 +130,25 @@ void rlvc_text_float(rlvc_text *text, float number, uint32_t digits) {
     put(text, power < 0 ? "e-" : "e+", 2);
     rlvc_text_uint(text, (uint32_t)(power < 0 ? -power : power));
 }
+
+/* Room for the characters of a name, the final 0 not counted. */
+typedef struct spelling {
+    char *text;
+    uint32_t room;
+    uint32_t count;
+} spelling;
+
+static int keep(void *ctx, const char *bytes, size_t count) {
+    spelling *kept = (spelling *)ctx;
+    for (size_t i = 0; i < count && kept->count < kept->room; i++)
+        kept->text[kept->count++] = bytes[i];
+    return 0;
+}
+
+uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room) {
+    spelling kept = {text, room - 1u, 0};
+    rlvc_text to = {keep, &kept, RLVC_OK};
+    rlvc_text_float(&to, number, digits);
+    text[kept.count] = '\0';
+    return kept.count;
+}

@@ -10,7 +10,7 @@ from ._version import __version__
 from .agent import Agent
 from .batch import Batch
 from .config import Config
-from .domain import Bits, Descriptors, Domain
+from .domain import Bits, Descriptors, Domain, Thresholds
 from .encode import Encoder
 from .errors import Error
 from .fewest import Fewest, fewest
@@ -39,6 +39,7 @@ __all__ = [
     "Run",
     "Split",
     "Statistics",
+    "Thresholds",
     "__version__",
     "fewest",
     "learn",

@@ -159,7 +159,7 @@ def _show(run: Run, env: Any, arguments: argparse.Namespace) -> None:
     if arguments.save:
         run.agent.save(arguments.save, run.encoder.names if run.encoder else ())
     if arguments.c:
-        _write(arguments.c, run.agent.export_c())
+        _write(arguments.c, (run.small or run.agent).export_c())
     if run.interrupted:
         print("interrupted: this is what was learnt until then", file=sys.stderr)
     elif env is not None and arguments.episodes > 0:

@@ -90,6 +90,28 @@ class Descriptors(c.Structure):
     ]
 
 
+class Thresholds(c.Structure):
+    """``rlvc_thresholds``."""
+
+    _fields_ = [
+        ("components", c.c_uint32),
+        ("cutpoints", c.c_uint32),
+        ("oblique", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
+    ]
+
+
+class Threshold(c.Structure):
+    """``rlvc_threshold``."""
+
+    _fields_ = [
+        ("cutpoint", c.c_float),
+        ("slope", c.c_float),
+        ("component", c.c_uint16),
+        ("other", c.c_uint16),
+    ]
+
+
 class Config(c.Structure):
     """``rlvc_config``."""
 
@@ -380,6 +402,8 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_policy_info": PolicyInfo,
     "rlvc_fewest_task": FewestTask,
     "rlvc_fewest_tree": FewestTree,
+    "rlvc_thresholds": Thresholds,
+    "rlvc_threshold": Threshold,
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_shim_log": Log,
@@ -446,6 +470,13 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_descriptors_domain": (c.c_int, [_P, _P]),
     "rlvc_descriptors_radius": (c.c_float, [_P]),
     "rlvc_descriptors_nearest": (c.c_int, [_P, _P, _P, _P, _P]),
+    # thresholds.h
+    "rlvc_thresholds_default": (c.c_int, [_P, _U32]),
+    "rlvc_thresholds_domain": (c.c_int, [_P, _P]),
+    "rlvc_thresholds_check": (c.c_int, [_P, _P]),
+    "rlvc_thresholds_feature": (Threshold, [_P]),
+    # domain.h
+    "rlvc_spell": (_U32, [c.c_float, _U32, _P, _U32]),
     # log.h, of which only the reader is used, through native/records.c
     "rlvc_log_open": (c.c_int, [_P, _U32, _U32, _P, _P]),
     "rlvc_log_begin": (c.c_int, [_P, _P]),
@@ -519,6 +550,8 @@ BUDGET_MIN = 64
 DETECT_SAMPLES = DETECT_FEATURES = 64
 NAME_BYTES = 64
 BITS_MAX = 1024
+COMPONENTS_MAX = 1024
+NUMBER_MAX = 1e15
 ALIGNMENT = 8
 RECORDS_PERCEPT = 1 << 20
 RECORDS_ROOM = RECORDS_PERCEPT + 13

@@ -461,7 +461,8 @@ class Agent(Looking):
         ----------
         file : str or Path
         domain : Domain or None
-            As it was; None if it was :class:`Bits` or :class:`Descriptors`.
+            As it was; None if it was :class:`Bits`, :class:`Descriptors` or
+            :class:`Thresholds`.
 
         Returns
         -------

@@ -285,7 +285,50 @@ class Bits(Domain):
         return native
 
 
-class Descriptors(Domain):
+class _Ready(Domain):
+    """A ready-made domain whose callbacks are the library's, with parameters of its own."""
+
+    parameters: tuple[Any, ...]
+    _native: _lib.Domain
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the parameters."""
+        return type(self), self.parameters
+
+    def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
+        """Whether a percept exhibits a feature, as the library says."""
+        present = ctypes.c_uint8()
+        record = np.ascontiguousarray(feature).tobytes()
+        if self._native.exhibits(self._native.ctx, self.pack(percept), record, present):
+            raise PerceptError("a percept that is none of the domain")
+        return bool(present.value)
+
+    def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """List the features that the library looks at first for such a class."""
+        records = self.pack_many(percepts)
+        pairs = np.zeros((len(records), 2), np.uint32)
+        pairs[:, 1] = np.arange(len(records))
+        samples = _lib.Samples(
+            records.ctypes.data, pairs.ctypes.data, self.percept_bytes, len(records)
+        )
+        found = np.zeros(_lib.DETECT_FEATURES, self.feature_dtype)
+        written = ctypes.c_uint32()
+        if self._native.candidates(
+            self._native.ctx, samples, 0, len(found), found.ctypes.data, written
+        ):
+            raise PerceptError("a percept that is none of the domain")
+        return found[: written.value]
+
+    def name(self, feature: Any) -> str:
+        """Name a feature as the library does."""
+        text = ctypes.create_string_buffer(_lib.NAME_BYTES)
+        record = np.ascontiguousarray(feature).tobytes()
+        address = ctypes.cast(text, ctypes.c_void_p)
+        self._native.name(self._native.ctx, record, address, _lib.NAME_BYTES)
+        return text.value.decode()
+
+
+class Descriptors(_Ready):
     """Percepts that are the vectors found at a picture's interest points (sections 3 and 6.2).
 
     A feature is a vector with a radius; a percept exhibits it if the nearest of its vectors is at most
@@ -351,42 +394,6 @@ class Descriptors(Domain):
             np.uint8, (self._native.percept_bytes,), feature, self._native.features_max
         )
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the parameters."""
-        return type(self), self.parameters
-
-    def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
-        """Whether a percept's record has a vector near enough to the feature's."""
-        present = ctypes.c_uint8()
-        record = np.ascontiguousarray(feature).tobytes()
-        if self._native.exhibits(self._native.ctx, self.pack(percept), record, present):
-            raise PerceptError(f"a percept of more than {self.points} vectors")
-        return bool(present.value)
-
-    def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """List the features that the library looks at for such a class; percepts are records."""
-        records = self.pack_many(percepts)
-        pairs = np.zeros((len(records), 2), np.uint32)
-        pairs[:, 1] = np.arange(len(records))
-        samples = _lib.Samples(
-            records.ctypes.data, pairs.ctypes.data, self.percept_bytes, len(records)
-        )
-        found = np.zeros(_lib.DETECT_FEATURES, self.feature_dtype)
-        written = ctypes.c_uint32()
-        if self._native.candidates(
-            self._native.ctx, samples, 0, len(found), found.ctypes.data, written
-        ):
-            raise PerceptError(f"a percept of more than {self.points} vectors")
-        return found[: written.value]
-
-    def name(self, feature: Any) -> str:
-        """Name a feature as the library does."""
-        text = ctypes.create_string_buffer(_lib.NAME_BYTES)
-        record = np.ascontiguousarray(feature).tobytes()
-        address = ctypes.cast(text, ctypes.c_void_p)
-        self._native.name(self._native.ctx, record, address, _lib.NAME_BYTES)
-        return text.value.decode()
-
     def pack(self, percept: Percept) -> bytes:
         """Give the record of a percept: also from an array [n, dimensions] of its vectors."""
         if isinstance(percept, np.ndarray) and percept.ndim == 2:
@@ -425,6 +432,71 @@ class Descriptors(Domain):
         """The library's own domain, which calls no Python."""
         native = _lib.Domain()
         _lib.call.rlvc_descriptors_domain(ctypes.byref(self._made), ctypes.byref(native))
+        native._keeps = self._made
+        return native
+
+
+class Thresholds(_Ready):
+    """Percepts that are vectors of real numbers; a feature asks whether one lies above a cutpoint.
+
+    Parameters
+    ----------
+    components : int
+        Numbers of a percept, [1, 1024].
+    cutpoints : int
+        At most so many for each component, at quantiles of the class's own values, [1, 65535]; 0: every
+        midpoint between neighbouring values, for small classes.
+    oblique : bool
+        Whether features may also weigh two components against each other, x[i] + w x[j] > c; of at most
+        64 components.
+
+    Raises
+    ------
+    ConfigError
+        A parameter is out of range.
+
+    Notes
+    -----
+    A percept is given as float32 [components], each number finite and at most 1e15 in absolute value:
+    anything else, such as a NaN, is refused here, before the library sees it. A feature has the fields
+    ``cutpoint``, ``slope``, ``component`` and ``other``. Source: ``core/include/rlvc/thresholds.h``.
+    """
+
+    def __init__(self, components: int, cutpoints: int = 15, oblique: bool = False) -> None:
+        self.parameters = (components, cutpoints, oblique)
+        self._made = _lib.Thresholds(components, cutpoints, oblique)
+        self._native = _lib.Domain()
+        status = _lib.call.rlvc_thresholds_domain(
+            ctypes.byref(self._made), ctypes.byref(self._native)
+        )
+        if status != _lib.OK:
+            raise ConfigError(f"thresholds: {_lib.status_text(status)}")
+        self.components = components
+        super().__init__(
+            np.float32, (components,), np.dtype(_lib.Threshold), self._native.features_max
+        )
+
+    def pack(self, percept: Percept) -> bytes:
+        """Like :meth:`Domain.pack`; the numbers are looked at."""
+        record = super().pack(percept)
+        self._look_at(np.frombuffer(record, np.float32))
+        return record
+
+    def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Like :meth:`Domain.pack_many`; the numbers are looked at."""
+        packed = super().pack_many(percepts)
+        self._look_at(packed)
+        return packed
+
+    @staticmethod
+    def _look_at(numbers: npt.NDArray[Any]) -> None:
+        if not (np.abs(numbers) <= _lib.NUMBER_MAX).all():  # neither is a NaN
+            raise PerceptError("a percept has a number in it that is a NaN, or beyond 1e15")
+
+    def native(self, guard: Guard) -> _lib.Domain:
+        """The library's own domain, which calls no Python."""
+        native = _lib.Domain()
+        _lib.call.rlvc_thresholds_domain(ctypes.byref(self._made), ctypes.byref(native))
         native._keeps = self._made
         return native
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Encoders: from the observations of Gymnasium's spaces to percepts of bits.
+"""Encoders: from the observations of Gymnasium's spaces to percepts.
 
 ==================  =====================================================================
 space               bits
@@ -7,10 +7,11 @@ space               bits
 Discrete            the number less ``start``, in binary, lowest bit first
 MultiDiscrete       each number likewise
 MultiBinary         as they are
-Box                 for each element, one bit a threshold: whether it lies above (a thermometer);
-                    the thresholds are quantiles of observations made before
-Dict, Tuple         their parts, one after another
+Dict, Tuple         those of their parts, one after another
 ==================  =====================================================================
+
+Where there is a Box, percepts are vectors of real numbers instead (:class:`rlvc.Thresholds`): each
+element of the Box is a component, and so is each bit of the other parts, as 0 or 1.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _lib
+from .domain import Bits, Domain, Thresholds
 from .errors import PerceptError, SpaceError
 
-Columns = npt.NDArray[np.bool_]
+Columns = npt.NDArray[Any]
 
 
 def _binary(values: Any, starts: Any, widths: Sequence[int]) -> Columns:
@@ -60,39 +62,20 @@ class _Part:
         return observation
 
 
-def _thresholds(values: npt.NDArray[Any], most: int) -> npt.NDArray[Any]:
-    """At most so many numbers that part the values into parts of about the same size."""
-    distinct = np.unique(values[np.isfinite(values)])
-    middles = distinct[:-1] + np.diff(distinct) / 2
-    if len(middles) <= most:
-        return middles
-    return np.unique(np.quantile(values, np.arange(1, most + 1) / (most + 1)))
-
-
 def _prefix(path: tuple[Any, ...]) -> str:
     return ".".join(str(key) for key in path)
 
 
-def _box_part(space: Any, path: tuple[Any, ...], samples: list[Any], most: int) -> _Part:
-    values = np.asarray(samples, np.float64).reshape(len(samples), -1)
-    elements: list[int] = []
-    limits: list[float] = []
-    names: list[str] = []
-    scalar = values.shape[1] == 1
-    for i in range(values.shape[1]):
-        for limit in _thresholds(values[:, i], most):
-            elements.append(i)
-            limits.append(float(limit))
-            where = (_prefix(path) or "x") + ("" if scalar else f"[{i}]")
-            names.append(f"{where} > {limit:.4g}")
-    chosen, above = np.array(elements, np.intp), np.array(limits)
+def _box_part(space: Any, path: tuple[Any, ...]) -> _Part:
+    size = int(np.prod(space.shape, dtype=int))
+    label = _prefix(path) or "x"
+    names = [label] if size == 1 else [f"{label}[{i}]" for i in range(size)]
 
     def columns(batch: Any) -> Columns:
-        rows = np.asarray(batch, np.float64)
-        rows = rows.reshape(len(rows), -1)
+        rows = np.asarray(batch, np.float64).reshape(len(batch), -1)
         if np.isnan(rows).any():
             raise PerceptError("an observation has a NaN in it")
-        return np.asarray(rows[:, chosen] > above)
+        return rows.clip(-_lib.NUMBER_MAX, _lib.NUMBER_MAX)
 
     return _Part(path, names, columns, lambda value: np.shape(value) == space.shape)
 
@@ -109,25 +92,17 @@ class Numbers:
         self.shape = shape
 
 
-def _parts(space: Any, path: tuple[Any, ...], samples: list[Any], most: int) -> list[_Part]:
+def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
     if isinstance(space, Numbers):
-        return [_box_part(space, path, samples, most)]
+        return [_box_part(space, path)]
     from gymnasium import spaces
 
     label = _prefix(path)
     if isinstance(space, spaces.Dict):
         inner = [((*path, key), sub) for key, sub in space.spaces.items()]
-        return [
-            p
-            for deeper, sub in inner
-            for p in _parts(sub, deeper, [s[deeper[-1]] for s in samples], most)
-        ]
+        return [p for deeper, sub in inner for p in _parts(sub, deeper)]
     if isinstance(space, spaces.Tuple):
-        return [
-            p
-            for i, sub in enumerate(space.spaces)
-            for p in _parts(sub, (*path, i), [s[i] for s in samples], most)
-        ]
+        return [p for i, sub in enumerate(space.spaces) for p in _parts(sub, (*path, i))]
     if isinstance(space, spaces.Discrete):
         width, start = _width(int(space.n)), int(space.start)
         names = [f"{label or 'number'} bit {bit}" for bit in range(width)]
@@ -157,73 +132,63 @@ def _parts(space: Any, path: tuple[Any, ...], samples: list[Any], most: int) -> 
             )
         ]
     if isinstance(space, spaces.Box):
-        return [_box_part(space, path, samples, most)]
+        return [_box_part(space, path)]
     raise SpaceError(f"{label + ': ' if label else ''}cannot encode {space}")
 
 
-def needs_samples(space: Any) -> bool:
-    """Whether a space has a Box in it, whose thresholds come from observations.
-
-    Parameters
-    ----------
-    space : gymnasium.Space
-
-    Returns
-    -------
-    bool
-    """
+def _has_reals(space: Any) -> bool:
+    """Whether a space has a Box in it."""
     if isinstance(space, Numbers):
         return True
     from gymnasium import spaces
 
     if isinstance(space, spaces.Dict):
-        return any(needs_samples(sub) for sub in space.spaces.values())
+        return any(_has_reals(sub) for sub in space.spaces.values())
     if isinstance(space, spaces.Tuple):
-        return any(needs_samples(sub) for sub in space.spaces)
+        return any(_has_reals(sub) for sub in space.spaces)
     return isinstance(space, spaces.Box)
 
 
 class Encoder:
-    """Turns the observations of a space into percepts of bits.
+    """Turns the observations of a space into percepts of bits, or of real numbers if it has a Box.
 
     Parameters
     ----------
     space : gymnasium.Space or Numbers
         Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of such.
-    samples : sequence of observations
-        From which a Box gets its thresholds.
     thresholds : int
-        At most so many for each element of a Box.
+        At most so many cutpoints for each component, where percepts are real numbers; 0: all.
 
     Attributes
     ----------
-    bits : int
-        Of a percept.
+    domain : Domain
+        Of the percepts: :class:`rlvc.Bits` or :class:`rlvc.Thresholds`.
     names : list of str
-        What each bit says.
-    real : bool
-        Whether some of them are thresholds of real numbers.
+        What each bit or component says.
 
     Raises
     ------
     SpaceError
-        The space cannot be encoded, or would need more than 1024 bits.
+        The space cannot be encoded, or would need more than 1024 bits or components.
+
+    Notes
+    -----
+    Numbers beyond 1e15, such as infinite ones, count as 1e15.
     """
 
-    def __init__(self, space: Any, samples: Sequence[Any] = (), thresholds: int = 15) -> None:
-        if needs_samples(space) and len(samples) == 0:
-            raise SpaceError("a Box gets its thresholds from observations: give some as samples")
-        self.real = needs_samples(space)
-        self._parts = _parts(space, (), list(samples), thresholds)
+    domain: Domain
+
+    def __init__(self, space: Any, thresholds: int = 15) -> None:
+        self._parts = _parts(space, ())
         self.names = [name for part in self._parts for name in part.names]
-        if not self.names:
-            self.names = ["nothing"]  # observations that never differ
-        self.bits = len(self.names)
-        if self.bits > _lib.BITS_MAX:
+        size, real = len(self.names), _has_reals(space)
+        if size > (_lib.COMPONENTS_MAX if real else _lib.BITS_MAX):
             raise SpaceError(
-                f"{space} would need {self.bits} bits, and a percept has at most {_lib.BITS_MAX}: "
+                f"{space} would need {size} {'components' if real else 'bits'}, and a percept has at "
+                f"most {_lib.BITS_MAX}: "
                 "give an encoder of your own, or for pictures an rlvc.vision.Eye"
             )
+        self.domain = Thresholds(size, thresholds) if real else Bits(size)
 
     def encode(self, observation: Any) -> bytes:
         """Encode one observation.
@@ -252,9 +217,9 @@ class Encoder:
                     f"{_prefix(part.path) or 'observation'}: {value!r:.80} is not of its space"
                 )
             columns.append(part.columns(np.asarray(value)[None])[0])
-        return bytes(self._packed(np.concatenate(columns)[None])[0])
+        return bytes(self._packed(np.concatenate(columns)[None])[0].tobytes())
 
-    def encode_many(self, observations: Any) -> npt.NDArray[np.uint8]:
+    def encode_many(self, observations: Any) -> npt.NDArray[Any]:
         """Encode a batch, as vector environments give it: arrays [n, ...], in dicts or tuples.
 
         Parameters
@@ -263,18 +228,18 @@ class Encoder:
 
         Returns
         -------
-        ndarray of uint8, [n, ceil(bits / 8)]
+        ndarray, [n, *percept_shape] of the domain
         """
         columns = [part.columns(np.asarray(part.of(observations))) for part in self._parts]
         return self._packed(np.concatenate(columns, axis=1))
 
-    def _packed(self, columns: Columns) -> npt.NDArray[np.uint8]:
-        if columns.shape[1] == 0:
-            columns = np.zeros((len(columns), 1), np.bool_)
-        return np.packbits(columns, axis=1, bitorder="little")
+    def _packed(self, columns: Columns) -> npt.NDArray[Any]:
+        if isinstance(self.domain, Bits):
+            return np.packbits(columns, axis=1, bitorder="little")
+        return columns.astype(np.float32)
 
     def explain(self, text: str) -> str:
-        """Replace ``bit N`` by what the bit says.
+        """Replace ``bit N`` or ``x[N]`` by what the bit or component says.
 
         Parameters
         ----------
@@ -289,7 +254,7 @@ class Encoder:
 
 
 def explain(text: str, names: Sequence[str]) -> str:
-    """Replace ``bit N`` in a text by the N-th name.
+    """Replace ``bit N`` or ``x[N]`` in a text by the N-th name.
 
     Parameters
     ----------
@@ -300,4 +265,6 @@ def explain(text: str, names: Sequence[str]) -> str:
     -------
     str
     """
-    return re.sub(r"\bbit (\d+)\b", lambda match: names[int(match[1])], text)
+    return re.sub(
+        r"\bbit (\d+)\b|\bx\[(\d+)\]", lambda match: names[int(match[1] or match[2])], text
+    )

@@ -14,17 +14,19 @@ from . import _lib
 from .agent import Agent
 from .batch import Batch
 from .config import Config
-from .domain import Bits, Domain
-from .encode import Encoder, needs_samples
+from .domain import Bits, Domain, Thresholds
+from .encode import Encoder
 from .errors import ConfigError, SpaceError
 from .policy import Policy
-from .results import CHOICE
+from .results import CHOICE, Choice
+from .trials import SmallPolicy, Trials, shrink
 
 if TYPE_CHECKING:
     import gymnasium
 
-_WARM_UP = 1000  # observations from which a Box gets its thresholds
 _CAPACITY_MAX = 1_000_000
+_RANDOM_AT_FIRST = 1000  # interactions before the first trial
+_LEAVES = 12
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,6 +70,9 @@ class Run:
     seed : int
     interrupted : bool
         Whether Ctrl-C ended it early.
+    small : SmallPolicy or None
+        Where learning was by trials, the policy of few leaves that did best: it is what acts, while
+        the agent's tree is what it was made from.
     """
 
     def __init__(self, agent: Agent, encoder: Encoder | None, seed: int, start: int = 0) -> None:
@@ -76,6 +81,7 @@ class Run:
         self.seed = seed
         self.history: list[Record] = []
         self.interrupted = False
+        self.small: SmallPolicy | None = None
         self._start = start
 
     def act(self, observation: Any, policy: Policy | None = None) -> int:
@@ -93,7 +99,12 @@ class Run:
             In the environment's space: ``Discrete.start`` is added.
         """
         percept = self.encoder.encode(observation) if self.encoder else observation
-        action = self.agent.predict(percept).action if policy is None else policy.act(percept)
+        if policy is not None:
+            action = policy.act(percept)
+        elif self.small:
+            action = self.small.act(np.frombuffer(self.agent.domain.pack(percept), np.float32))
+        else:
+            action = self.agent.predict(percept).action
         return int(action) + self._start
 
     def evaluate(
@@ -138,7 +149,7 @@ class Run:
         -------
         str
         """
-        text = self.agent.print("text")
+        text = self.small.text() if self.small else self.agent.print("text")
         return self.encoder.explain(text) if self.encoder else text
 
     def __repr__(self) -> str:
@@ -220,14 +231,6 @@ class _Learner:
         self.sums = np.zeros(stream.count)
         self.returns: list[float] = []  # of the episodes ended since the last learning step
 
-    def warm_up(self, count: int, random: np.random.Generator) -> list[tuple[Any, ...]]:
-        """Walk at random, before there are percepts: (s, actions, r, s', terminated, truncated)."""
-        walked = []
-        while self.done < count:
-            actions = random.integers(self.stream.actions, size=self.stream.count)
-            walked.append(self.transition(actions))
-        return walked
-
     def transition(self, actions: Any) -> tuple[Any, ...]:
         """Act, and leave out what is dead or too much."""
         stream = self.stream
@@ -252,9 +255,21 @@ class _Learner:
         return self.done // self.every > before // self.every or self.done >= self.interactions
 
 
-def _packed(encoder: Any, observations: list[Any], size: int) -> npt.NDArray[np.uint8]:
+def packed(encoder: Any, observations: Any, domain: Domain) -> npt.NDArray[Any]:
+    """Encode observations as an array of percepts, as :meth:`rlvc.Agent.observe_many` takes it.
+
+    Parameters
+    ----------
+    encoder : object
+    observations : iterable
+    domain : Domain
+
+    Returns
+    -------
+    ndarray, [n, *percept_shape]
+    """
     joined = b"".join(encoder.encode(observation) for observation in observations)
-    return np.frombuffer(joined, np.uint8).reshape(len(observations), size)
+    return np.frombuffer(joined, domain.percept_dtype).reshape(-1, *domain.percept_shape)
 
 
 def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
@@ -273,17 +288,15 @@ def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
     )
 
 
-def _store(
-    run: Run, percepts: Any, transition: tuple[Any, ...], choices: npt.NDArray[Any], resume: bool
-) -> None:
+def _store(run: Run, percepts: Any, transition: tuple[Any, ...], choices: npt.NDArray[Any]) -> None:
     _, _, rewards, reached, terminated, truncated = transition
     run.agent.observe_many(
         percepts,
         choices,
         np.asarray(rewards, np.float32),
-        _packed(run.encoder, reached, run.agent.domain.percept_bytes),
+        packed(run.encoder, reached, run.agent.domain),
         ends_of(terminated, truncated),
-        resume,
+        resume=True,
     )
 
 
@@ -292,7 +305,7 @@ def _fill(run: Run, batch: Batch, transition: tuple[Any, ...]) -> int:
     _, _, rewards, reached, terminated, truncated = transition
     count = len(reached)
     batch.rewards[:count] = rewards
-    batch.next_percepts[:count] = _packed(run.encoder, reached, run.agent.domain.percept_bytes)
+    batch.next_percepts[:count] = packed(run.encoder, reached, run.agent.domain)
     batch.ends[:count] = ends_of(terminated, truncated)
     return count
 
@@ -300,13 +313,12 @@ def _fill(run: Run, batch: Batch, transition: tuple[Any, ...]) -> int:
 def _collect(run: Run, learner: _Learner) -> Iterator[None]:
     """Interact; yields whenever a learning step is due."""
     stream, agent = learner.stream, run.agent
-    size = agent.domain.percept_bytes
     batch = agent.batch(stream.count)
     while learner.done < learner.interactions:
         before = learner.done
         live = np.flatnonzero(~stream.dead)
         everyone = stream.split(stream.current)
-        percepts = _packed(run.encoder, [everyone[i] for i in live], size)
+        percepts = packed(run.encoder, [everyone[i] for i in live], agent.domain)
         if stream.vector:
             batch.percepts[: len(live)] = percepts
             choices = batch.act(len(live))
@@ -318,7 +330,7 @@ def _collect(run: Run, learner: _Learner) -> Iterator[None]:
         if stream.vector:
             batch.observe(_fill(run, batch, transition))
         else:
-            _store(run, percepts, transition, choices, resume=True)
+            _store(run, percepts, transition, choices)
             if transition[4][0] or transition[5][0]:
                 agent.begin(run.encoder.encode(stream.current))  # type: ignore[union-attr]
         if learner.due(before):
@@ -364,9 +376,7 @@ def domain_of(encoder: Any) -> Domain:
     return domain if isinstance(domain, Domain) else Bits(encoder.bits)
 
 
-def default_config(
-    actions: int, interactions: int, seed: int, changes: dict[str, Any], real: bool
-) -> Config:
+def default_config(actions: int, interactions: int, seed: int, changes: dict[str, Any]) -> Config:
     """Give the config of :func:`learn`: that of an agent, with room for all interactions.
 
     Parameters
@@ -374,9 +384,6 @@ def default_config(
     actions, interactions, seed : int
     changes : dict
         Fields that the caller chose.
-    real : bool
-        Whether percepts hold thresholds of real numbers: what these foretell of each other never ends,
-        so that ``successors`` is off.
 
     Returns
     -------
@@ -391,8 +398,6 @@ def default_config(
     }
     if changes.get("criterion") == "returns":
         fields |= {"epsilon": 0.8, "alpha_known": 0.0001, "explore": "uniform"}
-    if real:
-        fields["successors"] = False
     try:
         return Config(actions, **(fields | changes))
     except TypeError as error:
@@ -407,6 +412,7 @@ def learn(
     every: int | None = None,
     seed: int | None = None,
     thresholds: int = 15,
+    leaves: int | None = None,
     progress: bool = False,
     callback: Callable[[Run], object] | None = None,
     **config: Any,
@@ -422,14 +428,20 @@ def learn(
     encoder : object or None
         Turns observations into percepts: it has ``encode(observation) -> bytes`` and ``bits``, or the
         ``domain`` that the percepts are of, as :class:`rlvc.vision.Eye` has. None:
-        an :class:`~rlvc.encode.Encoder` for the environment's space; where that has a Box, the first
-        interactions (at most 1000, and a tenth of all) are a random walk that finds the thresholds.
+        an :class:`~rlvc.encode.Encoder` for the environment's space.
     every : int or None
         Interactions from one learning step to the next. None: a hundredth of all, at least 100.
     seed : int or None
         Of the environment and of all choices: the same seed gives the same tree. None: any.
     thresholds : int
-        For each element of a Box, at most.
+        For each element of a Box, at most so many cutpoints are looked at in a class; 0: all there are.
+    leaves : int or None
+        Learn by trials (:mod:`rlvc.trials`): what acts is a policy of at most so many leaves, made of
+        the agent's values, and the one that earned most is kept. A learning step comes after each
+        trial, and not ``every`` so many interactions; after a random beginning (1000 interactions, or
+        a tenth of all) nothing explores but the trials. 0: no trials. None: 12 where percepts are real
+        numbers and there is one environment, else 0. Trials need both, and are not for the criterion
+        of returns.
     progress : bool
         Whether to show a progress bar, with classes, return and refinements.
     callback : callable or None
@@ -447,7 +459,7 @@ def learn(
     SpaceError
         The actions are not Discrete, or the observations cannot be encoded.
     ConfigError
-        A field of the config, ``interactions`` or ``every`` is out of range.
+        A field of the config, ``interactions``, ``every`` or ``leaves`` is out of range.
 
     Notes
     -----
@@ -463,25 +475,25 @@ def learn(
             "criterion: returns need episodes in one piece, and so a single environment"
         )
     learner = _Learner(stream, interactions, every or max(100, interactions // 100))
-    walked: list[tuple[Any, ...]] = []
     if encoder is None:
-        samples: list[Any] = []
-        if needs_samples(stream.observation_space):
-            count = max(1, min(_WARM_UP, interactions // 10))
-            walked = learner.warm_up(count, np.random.default_rng([seed, 2]))
-            samples = [one for transition in walked for one in transition[0]]
-        encoder = Encoder(stream.observation_space, samples, thresholds)
-    real = getattr(encoder, "real", False)
-    settings = default_config(stream.actions, interactions, seed % 2**32, config, real)
+        encoder = Encoder(stream.observation_space, thresholds)
+    settings = default_config(stream.actions, interactions, seed % 2**32, config)
     run = Run(Agent(domain_of(encoder), settings), encoder, seed, stream.start)
-    for transition in walked:
-        choices = np.zeros(len(transition[1]), CHOICE)
-        choices["action"] = transition[1]
-        percepts = _packed(encoder, transition[0], run.agent.domain.percept_bytes)
-        _store(run, percepts, transition, choices, resume=False)
+    able = isinstance(run.agent.domain, Thresholds) and not stream.vector
+    able = able and config.get("criterion") != "returns"
+    if leaves is None:
+        leaves = _LEAVES if able else 0
+    if leaves < 0 or (leaves > 0 and not able):
+        raise ConfigError(
+            "leaves: trials need one environment, percepts that are real numbers, and not the criterion "
+            "of returns"
+        )
     bar = _bar(interactions, progress)
     try:
-        _learn(run, learner, bar, callback)
+        if leaves > 0:
+            _learn_by_trials(run, learner, leaves, bar, callback)
+        else:
+            _learn(run, learner, bar, callback)
     except KeyboardInterrupt:
         run.interrupted = True
     finally:
@@ -503,3 +515,52 @@ def _learn(
         _note(run, learner, splits, bar)
         if callback is not None and callback(run) is True:
             return
+
+
+def _shrunk(agent: Agent, percepts: npt.NDArray[Any], leaves: int) -> SmallPolicy:
+    """A small policy by the agent's values; what was not tried in a class is worth the least there."""
+    tried = agent.samples > 0
+    least = np.min(agent.q, axis=1, where=tried, initial=np.inf, keepdims=True)
+    values = np.where(tried, agent.q, np.where(np.isinf(least), 0.0, least))
+    return shrink(percepts, values[agent.predict(percepts).class_id], leaves)
+
+
+def _learn_by_trials(
+    run: Run,
+    learner: _Learner,
+    leaves: int,
+    bar: Any,
+    callback: Callable[[Run], object] | None,
+) -> None:
+    """Let small policies act, and learn after each trial of one."""
+    stream, agent, trials = learner.stream, run.agent, Trials()
+    random = np.random.default_rng([run.seed, 2])
+    percepts = np.empty((learner.interactions, *agent.domain.percept_shape), np.float32)
+    at_first = max(1, min(_RANDOM_AT_FIRST, learner.interactions // 10))
+    here = packed(run.encoder, [stream.current], agent.domain)[0]
+    agent.begin(here)
+    gained, since = 0.0, 0
+    while learner.done < learner.interactions:
+        percepts[learner.done] = here
+        policy = trials.policy
+        action = int(random.integers(stream.actions)) if policy is None else policy.act(here)
+        _, _, rewards, reached, terminated, truncated = learner.transition(np.array([action]))
+        here = packed(run.encoder, reached, agent.domain)[0]
+        ends = {"terminated": bool(terminated[0]), "truncated": bool(truncated[0])}
+        agent.observe(Choice(action, policy is not None), float(rewards[0]), here, **ends)
+        gained += float(rewards[0])
+        over = terminated[0] or truncated[0]
+        if over:
+            here = packed(run.encoder, [stream.current], agent.domain)[0]
+            agent.begin(here)
+        if not over and learner.done - since < at_first:
+            continue
+        due = learner.done >= at_first if policy is None else trials.end_episode(gained)
+        gained, since = 0.0, learner.done
+        if due:
+            splits = agent.learn().splits
+            trials.start(_shrunk(agent, percepts[: learner.done], leaves))
+            run.small = trials.best or trials.policy
+            _note(run, learner, splits, bar)
+            if callback is not None and callback(run) is True:
+                return

@@ -212,14 +212,14 @@ class Looking(Handle):
         RangeError
             ``name`` is no such identifier.
         ConfigError
-            The domain is neither :class:`Bits` nor :class:`Descriptors`.
+            The domain is none of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
 
         Notes
         -----
         A percept of descriptors is the record that ``pack`` makes, aligned to 4: what
-        ``rlvc_extractor_extract`` fills on the controller. Compile such a header with
-        ``-ffp-contract=off``, and the action is the agent's for every percept, bit for bit. Source:
-        ``core/include/rlvc/export.h``.
+        ``rlvc_extractor_extract`` fills on the controller; of thresholds it is an array of float.
+        Compile such a header with ``-ffp-contract=off``, and the action is the agent's for every
+        percept, bit for bit. Source: ``core/include/rlvc/export.h``.
         """
         return self._exported("rlvc_export_c", name)
 

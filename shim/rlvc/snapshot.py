@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Snapshots in memory and in files.
 
-An agent's file is a line ``rlvc agent 1``, a line of JSON (``bits``, ``descriptors``, ``names``,
-``config``, ``bytes``), and the library's snapshot as it is. ``bits`` or ``descriptors`` has the
-parameters of that domain; both are null for one's own.
+An agent's file is a line ``rlvc agent 1``, a line of JSON (``bits``, ``descriptors``, ``thresholds``,
+``names``, ``config``, ``bytes``), and the library's snapshot as it is. One of the first three has the
+parameters of the domain; all are null for one's own.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _lib
 from .config import Config
-from .domain import Bits, Descriptors, Domain
+from .domain import Bits, Descriptors, Domain, Thresholds
 from .errors import SnapshotError, StoreError
 
 if TYPE_CHECKING:
@@ -92,6 +92,7 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
     head = {
         "bits": domain.bits if isinstance(domain, Bits) else None,
         "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
+        "thresholds": domain.parameters if isinstance(domain, Thresholds) else None,
         "names": list(names),
         "config": dataclasses.asdict(agent.config),
         "bytes": len(snapshot),
@@ -143,6 +144,8 @@ def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes
             domain = Bits(head["bits"])
         elif head.get("descriptors") is not None:
             domain = Descriptors(*head["descriptors"])
+        elif head.get("thresholds") is not None:
+            domain = Thresholds(*head["thresholds"])
     except (ValueError, KeyError, TypeError, ctypes.ArgumentError) as error:
         raise SnapshotError(f"{file}: is damaged: its head cannot be read ({error})") from error
     if len(snapshot) != count:

@@ -18,10 +18,15 @@
 #define PERCEPT_BYTES RLVC_DESCRIPTORS_PERCEPT_BYTES(3, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
 #define FEATURE_BYTES RLVC_DESCRIPTORS_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
 
+#define PLANE 258u /* components: more than a byte can number */
+#define NUMBERS 1728u
+
 static union {
     uint64_t aligned;
     unsigned char bytes[RLVC_AGENT_BYTES(2, 400, 8, 1, RLVC_BITS_FEATURE_BYTES, BITS)];
     unsigned char vectors[RLVC_AGENT_BYTES(255, 1920, 16, PERCEPT_BYTES, FEATURE_BYTES, 64)];
+    unsigned char numbers[RLVC_AGENT_BYTES(255, NUMBERS, 16, RLVC_THRESHOLDS_PERCEPT_BYTES(PLANE),
+                                           RLVC_THRESHOLDS_FEATURE_BYTES, 64)];
 } memory;
 
 /* Counts the writes; fails the one numbered `failing`, from 1. */
@@ -229,6 +234,108 @@ static void test_each_write_of_vectors_failing(void **unused) {
     }
 }
 
+/* ------------------------------------------------------------------ thresholds */
+
+/* What an agent of two components learns to tell apart. */
+enum {
+    PARTS,    /* three actions: left, and right below and above */
+    DIAGONAL, /* two: on either side of one */
+    STRIPES,  /* eight: one for each */
+    NOTHING
+};
+
+/* Percept i of a kind at x[0] and x[1]; returns the action that is wanted. */
+static uint32_t put_numbers(int kind, uint32_t i, float *x) {
+    const uint32_t place = i / 9u * 7u % 16u, part = i / 9u % 3u;
+    x[0] = kind == PARTS ? (part > 0 ? 1.5f : -0.5f) : (float)(place / 4u);
+    x[1] = kind == PARTS ? (part > 1u ? 2.0f : -1e-7f) : (float)(place % 4u);
+    if (kind == STRIPES)
+        x[0] = (float)(place % 8u);
+    return kind == PARTS      ? part
+           : kind == DIAGONAL ? place / 4u + place % 4u > 3u
+           : kind == STRIPES  ? place % 8u
+                              : 0;
+}
+
+/* An agent that has learnt it. The components lie at `at`. */
+static rlvc_agent *make_of_numbers(int kind, uint32_t at, uint32_t actions) {
+    static rlvc_thresholds thresholds;
+    static float x[PLANE];
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    assert_int_equal(rlvc_thresholds_default(&thresholds, at + 2u), RLVC_OK);
+    thresholds.oblique = kind == DIAGONAL;
+    assert_int_equal(rlvc_thresholds_domain(&thresholds, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, actions), RLVC_OK);
+    config.capacity = NUMBERS;
+    config.classes = 16;
+    assert_int_equal(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &agent), RLVC_OK);
+    for (uint32_t i = 0; i < NUMBERS; i++) {
+        const uint32_t wanted = put_numbers(kind, i, x + at);
+        const rlvc_choice choice = {(uint8_t)(i % 9u % actions), 0};
+        const float reward = kind == NOTHING || choice.action == wanted ? 1.0f : 0.0f;
+        assert_int_equal(rlvc_begin(agent, x), RLVC_OK);
+        assert_int_equal(rlvc_observe(agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
+    }
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    return agent;
+}
+
+static rlvc_export_info export_numbers(int kind, uint32_t at, uint32_t actions) {
+    rlvc_export_info info;
+    rlvc_agent *agent = make_of_numbers(kind, at, actions);
+    memset(&exported, 0, sizeof exported);
+    assert_int_equal(rlvc_export_c(agent, "t", keep, &exported, &info), RLVC_OK);
+    return info;
+}
+
+static void test_numbers(void **unused) {
+    (void)unused;
+    rlvc_export_info info = export_numbers(PARTS, 0, 3);
+    assert_int_equal(info.compact, 3);
+    assert_int_equal(info.bytes, 2 * 7);
+    assert_non_null(strstr(exported.text, "static const unsigned char t_node[2][3]"));
+    assert_non_null(strstr(exported.text, "1: x["));
+    assert_non_null(strstr(exported.text, "value = x[t_node[at][0]];"));
+    /* A component or an action that a byte has no room for. */
+    info = export_numbers(PARTS, PLANE - 2u, 3);
+    assert_int_equal(info.bytes, 2 * 16);
+    assert_non_null(strstr(exported.text, "static const unsigned t_node[2][3]"));
+    info = export_numbers(PARTS, 0, 255);
+    assert_int_equal(info.bytes, 2 * 16);
+    info = export_numbers(STRIPES, 0, 8);
+    assert_int_equal(info.compact, 8);
+    assert_int_equal(info.bytes, 7 * 7);
+    info = export_numbers(NOTHING, 0, 3);
+    assert_int_equal(info.bytes, 0);
+    assert_non_null(strstr(exported.text, "t_act(const float *percept) {\n    (void)percept;\n"));
+}
+
+static void test_oblique_numbers(void **unused) {
+    (void)unused;
+    rlvc_export_info info = export_numbers(DIAGONAL, 0, 3);
+    assert_int_equal(info.compact, 2);
+    assert_int_equal(info.bytes, 12);
+    assert_non_null(strstr(exported.text, "1: action 1\n"));
+    assert_non_null(strstr(exported.text, "static const unsigned char t_other[1]"));
+    assert_non_null(strstr(exported.text, "value = x[t_node[at][0]] + t_slope[at] * "
+                                          "x[t_other[at]];"));
+}
+
+static void test_each_write_of_numbers_failing(void **unused) {
+    (void)unused;
+    rlvc_agent *agent = make_of_numbers(DIAGONAL, 0, 3);
+    writer all = {0, 0, NULL, RLVC_OK};
+    assert_int_equal(rlvc_export_c(agent, "a", count_writes, &all, NULL), RLVC_OK);
+    for (uint32_t n = 1; n <= all.count; n++) {
+        writer w = {0, n, NULL, RLVC_OK};
+        assert_int_equal(rlvc_export_c(agent, "a", count_writes, &w, NULL), RLVC_E_CALLBACK);
+        assert_int_equal(w.count, n);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refusals),
@@ -237,6 +344,9 @@ int main(void) {
         cmocka_unit_test(test_vectors),
         cmocka_unit_test(test_vectors_that_do_not_matter),
         cmocka_unit_test(test_each_write_of_vectors_failing),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_oblique_numbers),
+        cmocka_unit_test(test_each_write_of_numbers_failing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -148,6 +148,21 @@ static void test_whole_numbers_and_strings(void **state) {
     }
 }
 
+/* For names: the same digits, as far as there is room. */
+static void test_spelling(void **state) {
+    const char *const whole = "-12345.6787";
+    (void)state;
+    for (uint32_t room = 1; room < 20u; room++) {
+        char text[32];
+        memset(text, '#', sizeof text);
+        const uint32_t length = rlvc_spell(-12345.6789f, 9, text, room);
+        assert_int_equal(length, room - 1u < strlen(whole) ? room - 1u : strlen(whole));
+        assert_memory_equal(text, whole, length);
+        assert_int_equal(text[length], '\0');
+        assert_int_equal(text[length + 1u], '#');
+    }
+}
+
 /* The first failure sticks, and nothing is written after it. */
 static void test_failure(void **state) {
     (void)state;
@@ -168,6 +183,7 @@ int main(void) {
         cmocka_unit_test(test_round_trips),
         cmocka_unit_test(test_known_numbers),
         cmocka_unit_test(test_whole_numbers_and_strings),
+        cmocka_unit_test(test_spelling),
         cmocka_unit_test(test_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,7 @@
 #define BYTES_MAX GRIDWORLD_PERCEPT_BYTES(BITS_MAX)
 #define PLACES 6u
 #define VECTORS_CAPACITY 1500u
+#define NUMBERS_CAPACITY 4000u
 
 static union {
     uint64_t aligned;
@@ -169,9 +170,49 @@ static learnt learn_vectors(uint32_t form) {
     return made;
 }
 
+/* ------------------------------------------------------------------ thresholds */
+
+void draw_numbers(uint64_t *state, float *x) {
+    for (uint32_t i = 0; i < COMPONENTS; i++)
+        x[i] = (float)(draw(state) >> 8) * 1.1920929e-7f - 1.0f;
+}
+
+static uint32_t wanted_of_numbers(const float *x) {
+    return x[0] > 0.25f * x[2] ? (x[1] > 0.1f ? 2u : 1u) : x[1] > -0.6f ? 3u : 0u;
+}
+
+static learnt learn_numbers(uint8_t oblique) {
+    static rlvc_thresholds thresholds;
+    learnt made = {NULL, 0, NULL};
+    rlvc_domain domain;
+    rlvc_config config;
+    uint64_t state = 1;
+    must(rlvc_thresholds_default(&thresholds, COMPONENTS), "default");
+    thresholds.oblique = oblique;
+    must(rlvc_thresholds_domain(&thresholds, &domain), "domain");
+    must(rlvc_config_default(&config, &domain, 4), "config");
+    config.capacity = NUMBERS_CAPACITY;
+    config.classes = 400;
+    config.epsilon = 1.0f;
+    must(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &made.agent), "init");
+    for (uint32_t i = 0; i < NUMBERS_CAPACITY; i++) {
+        rlvc_choice choice;
+        float x[COMPONENTS];
+        draw_numbers(&state, x);
+        must(rlvc_begin(made.agent, x), "begin");
+        must(rlvc_act(made.agent, &choice), "act");
+        const float reward = choice.action == wanted_of_numbers(x) ? 1.0f : 0.0f;
+        must(rlvc_observe(made.agent, choice, reward, NULL, RLVC_TERMINATED), "observe");
+    }
+    learn(made.agent);
+    return made;
+}
+
 /* ------------------------------------------------------------------ cases */
 
 learnt learn_case(uint32_t i) {
+    if (i >= 7)
+        return learn_numbers(i == 8);
     if (i >= 5)
         return learn_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8);
     static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};

@@ -4,7 +4,6 @@
 #ifndef RLVC_TESTS_EXPORT_CASES_H
 #define RLVC_TESTS_EXPORT_CASES_H
 
-#include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 
 /* maze    Sutton's maze: 18 bits, a table of actions
@@ -13,17 +12,20 @@
  * wide    300 bits: a table of nodes in words
  * many    so many leaves that the table of nodes is in words
  * floats  descriptors, as floats
- * int8s   descriptors, as int8_t */
+ * int8s   descriptors, as int8_t
+ * reals   thresholds
+ * slants  oblique thresholds */
 #define CASE_NAMES                                                                                 \
-    { "maze", "single", "bytes", "wide", "many", "floats", "int8s" }
-#define CASES 7u
+    { "maze", "single", "bytes", "wide", "many", "floats", "int8s", "reals", "slants" }
+#define CASES 9u
 
 #define POINTS 4u
 #define DIMENSIONS 36u
+#define COMPONENTS 3u
 
 typedef struct learnt {
     rlvc_agent *agent;
-    uint32_t bits;                       /* 0: descriptors */
+    uint32_t bits;                       /* 0: descriptors or thresholds */
     const rlvc_descriptors *descriptors; /* of which the percepts are, or null */
 } learnt;
 
@@ -42,6 +44,9 @@ void draw_vectors(uint64_t *state, uint32_t form, vectors *percept);
 /* Number k of the vectors of a percept, or of a feature. */
 void set_number(unsigned char *record, uint32_t form, uint32_t k, float number);
 float get_number(const unsigned char *record, uint32_t form, uint32_t k);
+
+/* Draws a percept of COMPONENTS numbers in [-1, 1). */
+void draw_numbers(uint64_t *state, float *x);
 
 /* Learns case i; the memory is static, so that the last case learnt is the one there is. Ends the program
  * with a message if anything fails. */

@@ -2,7 +2,8 @@
 /* Proves the exported policies equal to the agents that they were exported from: on every percept up to
  * 20 bits, else on a path to each leaf of the tree (many, the other bits being random) and on a million
  * random percepts; of descriptors on RLVC_EXPORT_VECTORS random percepts, of which half have a vector whose
- * distance from a feature is its radius up to a few roundings. And an agent that learnt the same exports the
+ * distance from a feature is its radius up to a few roundings; of thresholds on as many random percepts, of
+ * which half lie on a cutpoint up to a few roundings. And an agent that learnt the same exports the
  * same, to the letter. */
 #include "bytes.h"
 #include "cases.h"
@@ -10,7 +11,9 @@
 #include "int8s.h"
 #include "many.h"
 #include "maze.h"
+#include "reals.h"
 #include "single.h"
+#include "slants.h"
 #include "wide.h"
 
 #include <stdio.h>
@@ -37,6 +40,10 @@ static unsigned exported(uint32_t i, const unsigned char *percept) {
     default:
         return int8s_act(percept);
     }
+}
+
+static unsigned exported_of_numbers(uint32_t i, const float *x) {
+    return i == 7 ? reals_act(x) : slants_act(x);
 }
 
 /* 1 if both act alike. */
@@ -154,6 +161,48 @@ static int check_vectors(const learnt *made, uint32_t i) {
     return 1;
 }
 
+/* Puts a percept on the cutpoint of a split, or beside it. */
+static void put_on_cutpoint(const learnt *made, uint32_t split_number, float *x) {
+    rlvc_split split;
+    unsigned char record[RLVC_THRESHOLDS_FEATURE_BYTES];
+    if (rlvc_split_at(made->agent, split_number, &split, record) != RLVC_OK)
+        return;
+    const rlvc_threshold feature = rlvc_thresholds_feature(record);
+    const float roundings = (float)(draw(&state) % 17u) - 8.0f;
+    const float rest = feature.slope * x[feature.other];
+    if (feature.slope == 0.0f)
+        x[feature.component] = feature.cutpoint * (1.0f + 1.2e-7f * roundings);
+    else
+        x[feature.component] = (feature.cutpoint - rest) * (1.0f + 1.2e-7f * roundings);
+}
+
+static int check_numbers(const learnt *made, uint32_t i) {
+    uint32_t reached[400] = {0};
+    rlvc_statistics statistics;
+    if (rlvc_stats(made->agent, &statistics) != RLVC_OK || statistics.classes < 4)
+        return 0;
+    for (uint32_t n = 0; n < RLVC_EXPORT_VECTORS; n++) {
+        float x[COMPONENTS];
+        uint32_t class_id = 0, action = 0;
+        draw_numbers(&state, x);
+        if (n % 2u)
+            put_on_cutpoint(made, draw(&state) % (statistics.classes - 1u), x);
+        if (rlvc_predict(made->agent, x, &class_id, &action) != RLVC_OK ||
+            action != exported_of_numbers(i, x)) {
+            printf("  percept %.9g %.9g %.9g: the agent does %u, its export %u\n", (double)x[0],
+                   (double)x[1], (double)x[2], (unsigned)action, exported_of_numbers(i, x));
+            return 0;
+        }
+        reached[class_id]++;
+    }
+    for (uint32_t c = 0; c < statistics.classes; c++)
+        if (reached[c] == 0) {
+            printf("  no percept fell into class %u\n", (unsigned)c);
+            return 0;
+        }
+    return 1;
+}
+
 /* Compares what is written with a file as it goes. */
 static int compare(void *file, const char *text, size_t bytes) {
     for (size_t i = 0; i < bytes; i++) {
@@ -183,6 +232,7 @@ int main(void) {
     for (uint32_t i = 0; i < CASES; i++) {
         learnt made = learn_case(i);
         int equal = made.descriptors  ? check_vectors(&made, i)
+                    : made.bits == 0  ? check_numbers(&made, i)
                     : made.bits <= 20 ? check_all(&made, i)
                                       : check_some(&made, i);
         int again = exports_the_same(&made, names[i]);

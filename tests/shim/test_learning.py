@@ -152,41 +152,46 @@ def test_what_cannot_be_learnt():
         rlvc.Encoder(spaces.Text(3))
     with pytest.raises(errors.SpaceError, match="bits"):
         rlvc.Encoder(spaces.MultiBinary(2000))
-    with pytest.raises(errors.SpaceError, match="samples"):
-        rlvc.Encoder(spaces.Box(0, 1))
+    with pytest.raises(errors.SpaceError, match="components"):
+        rlvc.Encoder(spaces.Box(0, 1, (33, 32)))
     for wrong in ({"interactions": 0}, {"every": 0}, {"explore": "bravely"}, {"gamma": 1}):
         with pytest.raises(errors.ConfigError):
             rlvc.learn(Line(), **{"interactions": 10, **wrong})
 
 
 @pytest.mark.parametrize(
-    ("space", "samples", "wrong"),
+    ("space", "wrong"),
     [
-        (spaces.Discrete(4, start=2), (), 6),
-        (spaces.MultiDiscrete([3, 3]), (), np.array([3, 0])),
-        (spaces.MultiBinary(3), (), np.zeros(4, np.int8)),
-        (spaces.Box(0, 1, (2,)), [np.zeros(2), np.ones(2)], np.zeros(3)),
-        (spaces.Box(0, 1, (2,)), [np.zeros(2), np.ones(2)], np.array([np.nan, 0])),
-        (spaces.Dict({"a": spaces.Discrete(2)}), (), {"b": 1}),
-        (spaces.Tuple((spaces.Discrete(2),)), (), ()),
+        (spaces.Discrete(4, start=2), 6),
+        (spaces.MultiDiscrete([3, 3]), np.array([3, 0])),
+        (spaces.MultiBinary(3), np.zeros(4, np.int8)),
+        (spaces.Box(0, 1, (2,)), np.zeros(3)),
+        (spaces.Box(0, 1, (2,)), np.array([np.nan, 0])),
+        (spaces.Dict({"a": spaces.Discrete(2)}), {"b": 1}),
+        (spaces.Tuple((spaces.Discrete(2),)), ()),
     ],
 )
-def test_observations_of_another_space(space, samples, wrong):
+def test_observations_of_another_space(space, wrong):
     with pytest.raises(errors.PerceptError):
-        rlvc.Encoder(space, samples).encode(wrong)
+        rlvc.Encoder(space).encode(wrong)
 
 
 def test_encodings():
     assert rlvc.Encoder(spaces.Discrete(5, start=10)).encode(14) == bytes([4])
     assert rlvc.Encoder(spaces.Discrete(1)).encode(0) == bytes([0])
     assert rlvc.Encoder(spaces.MultiDiscrete([4, 3])).encode(np.array([3, 1])) == bytes([0b0111])
-    box = rlvc.Encoder(spaces.Box(0, 9, (1,)), [np.array([v]) for v in (0, 2, 4)])
-    assert box.names == ["x > 1", "x > 3"]
-    assert [box.encode(np.array([v])) for v in (0, 1, 2, 4)] == [bytes([b]) for b in (0, 0, 1, 3)]
-    many = rlvc.Encoder(spaces.Box(0, 1, (1,)), np.linspace(0, 1, 500)[:, None], thresholds=7)
-    assert many.bits == 7
-    batch = np.random.default_rng(1).random((20, 1))
-    assert b"".join(many.encode(row) for row in batch) == many.encode_many(batch).tobytes()
+    box = rlvc.Encoder(spaces.Box(0, 9, (1,)))
+    assert box.names == ["x"] and box.domain.components == 1
+    values = np.array([[0.1], [-np.inf], [np.inf]])
+    expected = np.array([0.1, -1e15, 1e15], np.float32)
+    assert b"".join(box.encode(row) for row in values) == expected.tobytes()
+    assert box.encode_many(values).tobytes() == expected.tobytes()
+    space = spaces.Dict({"a": spaces.Discrete(3), "b": spaces.Box(-1, 1, (2,))})
+    both = rlvc.Encoder(space)
+    assert both.names == ["a bit 0", "a bit 1", "b[0]", "b[1]"]
+    record = both.encode({"a": 2, "b": np.array([0.5, -1])})
+    assert np.frombuffer(record, np.float32).tolist() == [0, 1, 0.5, -1]
+    assert both.explain("x[3] > 0.5, x[1] > 0.5") == "b[1] > 0.5, a bit 1 > 0.5"
 
 
 def test_constant_observations():

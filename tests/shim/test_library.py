@@ -19,7 +19,7 @@ SCALARS = {
     "uint8_t": ctypes.c_uint8, "uint32_t": ctypes.c_uint32, "size_t": ctypes.c_size_t,
     "float": ctypes.c_float, "int": ctypes.c_int, "rlvc_status": ctypes.c_int,
     "rlvc_choice": _lib.Choice, "rlvc_write": _lib.WRITE, "void": None, "int32_t": ctypes.c_int32,
-    "rlvc_vision_status": ctypes.c_int,
+    "rlvc_vision_status": ctypes.c_int, "rlvc_threshold": _lib.Threshold,
 }  # fmt: skip
 
 

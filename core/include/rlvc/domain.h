@@ -9,6 +9,8 @@
 #ifndef RLVC_DOMAIN_H
 #define RLVC_DOMAIN_H
 
+#include "rlvc/status.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -43,6 +45,7 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DOMAIN_OWN 0u /* yours */
 #define RLVC_DOMAIN_BITS 1u
 #define RLVC_DOMAIN_DESCRIPTORS 2u
+#define RLVC_DOMAIN_THRESHOLDS 3u
 
 typedef struct rlvc_domain {
     void *ctx; /* handed to every callback, untouched */
@@ -86,6 +89,12 @@ typedef struct rlvc_domain {
 } rlvc_domain;
 
 #define RLVC_NAME_BYTES 64u /* the room that name() gets */
+
+/* Spells a finite number in decimal as rlvc_print does, for name(): to at most `digits` significant digits,
+ * [1, 9], nine of which tell any two floats apart. At most `room` - 1 characters, room at least 1, and a
+ * final 0. O(1).
+ * @return how many characters. */
+RLVC_API uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room);
 
 #ifdef __cplusplus
 }

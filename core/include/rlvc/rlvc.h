@@ -14,6 +14,7 @@
 #include "rlvc/policy.h"
 #include "rlvc/snapshot.h"
 #include "rlvc/status.h"
+#include "rlvc/thresholds.h"
 
 #define RLVC_VERSION_MAJOR 0
 #define RLVC_VERSION_MINOR 1

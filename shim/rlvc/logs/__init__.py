@@ -23,7 +23,7 @@ import numpy.typing as npt
 from .. import _lib
 from ..agent import Agent
 from ..domain import Bits, Domain
-from ..encode import Encoder, Numbers, needs_samples
+from ..encode import Encoder, Numbers
 from ..errors import ConfigError, LogError, PerceptError
 from ..learning import Record, Run, default_config, domain_of
 from ..results import CHOICE
@@ -43,8 +43,6 @@ __all__ = [
     "learn_from",
     "read",
 ]
-
-_SAMPLES = 1000  # observations from which a Box gets its thresholds
 
 
 def read(log: Any, columns: Sequence[str] | None = None) -> Log:
@@ -128,13 +126,10 @@ def _encoded(
         return Bits(values.shape[1]), None, pack[0], pack[1]
     if encoder is None:
         chosen = space if space is not None else _space_of(log)
-        samples: list[Any] = []
-        if needs_samples(chosen):
-            step = max(1, len(log) // _SAMPLES)
-            samples = [log.before[i] for i in range(0, len(log), step)]
-        encoder = Encoder(chosen, samples, thresholds)
+        encoder = Encoder(chosen, thresholds)
         if log.columns:
             encoder.names = [_in_words(name, log.columns) for name in encoder.names]
+    domain = domain_of(encoder)
     sides = []
     for side, name in ((log.before, "observations"), (log.after, "next observations")):
         records = []
@@ -143,8 +138,9 @@ def _encoded(
                 records.append(encoder.encode(side[i]))
             except PerceptError as error:
                 raise LogError(f"{log.where}: {name}: index {i}: {error}") from error
-        sides.append(np.frombuffer(b"".join(records), np.uint8).reshape(len(log), -1))
-    return domain_of(encoder), encoder, sides[0], sides[1]
+        flat = np.frombuffer(b"".join(records), domain.percept_dtype)
+        sides.append(flat.reshape(len(log), *domain.percept_shape))
+    return domain, encoder, sides[0], sides[1]
 
 
 def learn_from(
@@ -214,9 +210,7 @@ def learn_from(
         encoder, before, after = None, read_log.before, read_log.after
     else:
         domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
-    settings = default_config(
-        count, len(read_log), int(config.get("seed", 1)), config, getattr(encoder, "real", False)
-    )
+    settings = default_config(count, len(read_log), int(config.get("seed", 1)), config)
     run = Run(Agent(domain, settings), encoder, settings.seed)
     choices = np.zeros(len(read_log), CHOICE)
     choices["action"] = read_log.actions
