@@ -9,7 +9,7 @@ from gymnasium.utils.env_checker import check_env
 
 import rlvc
 import rlvc.envs
-from rlvc import errors, learning
+from rlvc import errors
 
 
 class Line(gymnasium.Env):
