@@ -459,7 +459,7 @@ def test_table_of_runs(tmp_path):
 # ------------------------------------------------------------------------- comparing
 
 OWN = ["value-iteration", "policy-iteration", "prioritized-sweeping", "q-learning", "sarsa"]
-PEERS = ["told-r-max", "told-value-iteration", "told-q-learning", "told-sarsa", "raw-q-learning"]
+PEERS = ["fitted-q", "told-r-max", "told-value-iteration", "told-q-learning", "told-sarsa", "raw-q-learning"]
 
 
 def runs_of(learner, made):
@@ -523,6 +523,16 @@ def test_a_peer_without_the_cell_is_lost_in_random_bits(tmp_path):
     made = comparison(*arguments, cwd=tmp_path)
     assert without_time(runs_of("raw-q-learning", made)[0]) == \
            without_time(runs_of("told-q-learning", made)[0])
+
+
+def test_fitted_q_iteration_grows_a_tree(tmp_path):
+    (tmp_path / "maze.txt").write_text("....\n.##.\n..#*\n")
+    arguments = ["--learner", "fitted-q", "--maze", "maze.txt", "--distractors", "3",
+                 "--interactions", "2000", "--steps", "10"]
+    grown = comparison(*arguments, cwd=tmp_path)["learners"][0]["runs"][0]
+    assert grown["states"] == grown["optimal_cells"] == 8
+    done = run("binary", *arguments, "--classes", "3", cwd=tmp_path)
+    check_refused(done, "fitted-q", "tree is full", "3 classes", "--classes", "seed 1")
 
 
 def test_peers_where_moves_go_astray(tmp_path):

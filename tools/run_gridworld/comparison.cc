@@ -10,6 +10,8 @@
 
 namespace {
 
+constexpr uint32_t fitted_interactions_a_cell = 90, fitted_steps = 40;
+
 Outcome run_own(const Options &options, const gridworld_maze &maze, const Optimum &optimum,
                 uint32_t seed, const ProgressListener &listener) {
     const auto show = [&](const StepRecord &step) {
@@ -41,6 +43,18 @@ Outcome run_learner(const LearnerType &learner, const Options &options, const gr
     }
 }
 
+// Fitted Q iteration takes the library's settings, but more interactions, and remembers them all.
+void settle_fitted(Options &options, const gridworld_maze &maze) {
+    if (options.interactions == 0) {
+        options.interactions = fitted_interactions_a_cell * maze.free_cells;
+        options.steps = options.steps == 0 ? fitted_steps : options.steps;
+    }
+    if (options.capacity == 0) {
+        options.capacity = options.interactions;
+    }
+    settle(options, maze);
+}
+
 } // namespace
 
 std::vector<Options> settle_each(const Options &options, const gridworld_maze &maze) {
@@ -52,6 +66,9 @@ std::vector<Options> settle_each(const Options &options, const gridworld_maze &m
             each.back().solver = learner.solver;
             settle(each.back(), maze);
             learner_bytes(each.back(), maze); // says what is impossible
+        } else if (learner.kind == LearnerKind::fitted_q) {
+            settle_fitted(each.back(), maze);
+            learner_bytes(each.back(), maze);
         } else {
             check_percept(options, maze);
         }

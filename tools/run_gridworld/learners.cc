@@ -28,6 +28,7 @@ const std::vector<LearnerType> &learner_types() {
         {"prioritized-sweeping", LearnerKind::own, RLVC_SOLVER_PRIORITIZED},
         {"q-learning", LearnerKind::own, RLVC_SOLVER_Q_LEARNING},
         {"sarsa", LearnerKind::own, RLVC_SOLVER_SARSA},
+        {"fitted-q", LearnerKind::fitted_q, 0},
         {"told-r-max", LearnerKind::told_r_max, 0},
         {"told-value-iteration", LearnerKind::told_value_iteration, 0},
         {"told-q-learning", LearnerKind::told_q_learning, 0},

@@ -10,6 +10,7 @@
 
 enum class LearnerKind {
     own,             // the library; `solver` says by which solver
+    fitted_q,        // the library's tree, grown anew again and again
     told_q_learning, // tables over the cells, whose numbers these learners are told
     told_sarsa,
     told_value_iteration,

@@ -62,38 +62,42 @@ void ModelPeer::solve(std::vector<double> &value, bool optimistic) const {
     }
 }
 
-uint32_t ModelPeer::act(uint32_t state) {
-    make_room(state);
+uint32_t ModelPeer::best_of(uint32_t state, bool optimistic) const {
+    const ActionValues values = values_of(state, optimistic);
+    return static_cast<uint32_t>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
+uint32_t ModelPeer::act(const Seen &seen) {
+    make_room(seen.state);
     if (random_.chance(options_.epsilon)) {
         return random_.below(4);
     }
     if (options_.kind != LearnerKind::told_r_max) {
         settle();
-        return greedy(state);
+        return greedy(seen);
     }
     if (learnt_) {
         solve(bright_, true);
         learnt_ = false;
     }
-    const ActionValues values = values_of(state, true);
-    return static_cast<uint32_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    return best_of(seen.state, true);
 }
 
-void ModelPeer::observe(uint32_t state, uint32_t action, double reward, uint32_t next, bool over) {
-    make_room(state);
-    Pair &pair = model_[state][action];
+void ModelPeer::observe(const Seen &seen, uint32_t action, double reward, const Seen &next,
+                        bool over) {
+    Pair &pair = model_[seen.state][action];
     pair.reward += reward;
     pair.tried++;
     learnt_ = learnt_ || pair.tried == options_.known;
     if (over) {
         return;
     }
-    make_room(next);
-    auto &all = model_[state][action].transitions;
-    const auto same = [next](const Transition &transition) { return transition.next == next; };
+    make_room(next.state);
+    auto &all = model_[seen.state][action].transitions;
+    const auto same = [&next](const Transition &t) { return t.next == next.state; };
     const auto found = std::find_if(all.begin(), all.end(), same);
     if (found == all.end()) {
-        all.push_back({next, 1});
+        all.push_back({next.state, 1});
     } else {
         found->count++;
     }
@@ -103,10 +107,10 @@ void ModelPeer::settle() {
     solve(value_, false);
 }
 
-uint32_t ModelPeer::greedy(uint32_t state) const {
-    if (state >= model_.size()) {
-        return 0;
-    }
-    const ActionValues values = values_of(state, false);
-    return static_cast<uint32_t>(std::max_element(values.begin(), values.end()) - values.begin());
+uint32_t ModelPeer::greedy(const Seen &seen) const {
+    return seen.state < model_.size() ? best_of(seen.state, false) : 0;
+}
+
+uint64_t ModelPeer::states() const {
+    return model_.size();
 }

@@ -18,10 +18,12 @@ class ModelPeer : public Peer {
   public:
     explicit ModelPeer(const PeerOptions &options);
 
-    uint32_t act(uint32_t state) override;
-    void observe(uint32_t state, uint32_t action, double reward, uint32_t next, bool over) override;
+    uint32_t act(const Seen &seen) override;
+    void observe(const Seen &seen, uint32_t action, double reward, const Seen &next,
+                 bool over) override;
     void settle() override;
-    uint32_t greedy(uint32_t state) const override;
+    uint32_t greedy(const Seen &seen) const override;
+    uint64_t states() const override;
 
   private:
     struct Transition {
@@ -41,6 +43,7 @@ class ModelPeer : public Peer {
     double q(const Pair &pair, const std::vector<double> &value) const;
     ActionValues values_of(uint32_t state, bool optimistic) const;
     void solve(std::vector<double> &value, bool optimistic) const;
+    uint32_t best_of(uint32_t state, bool optimistic) const;
     void make_room(uint32_t state);
 
     PeerOptions options_;

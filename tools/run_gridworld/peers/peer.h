@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the library is compared with: learners of the textbook, with a table over states that they
-// are given. A state is a number: of a cell, or of a percept, from 0 on in the order of their first
-// coming.
+// What the library is compared with: learners of the textbook. Most have a table over states, which
+// are numbers: of a cell, or of a percept, from 0 on in the order of their first coming.
 #ifndef RUN_GRIDWORLD_PEERS_PEER_H
 #define RUN_GRIDWORLD_PEERS_PEER_H
 
@@ -15,15 +14,21 @@
 
 using ActionValues = std::array<double, 4>; // of the four directions
 
+// What is before a peer's eyes.
+struct Seen {
+    uint32_t state; // UINT32_MAX: one that never came before
+    const unsigned char *percept;
+};
+
 class Peer {
   public:
     virtual ~Peer() = default;
 
     // The action to take next.
-    virtual uint32_t act(uint32_t state) = 0;
+    virtual uint32_t act(const Seen &seen) = 0;
 
     // What came of it. `next` is not looked at if the episode is over.
-    virtual void observe(uint32_t state, uint32_t action, double reward, uint32_t next,
+    virtual void observe(const Seen &seen, uint32_t action, double reward, const Seen &next,
                          bool over) = 0;
 
     // Makes ready for questions about the policy.
@@ -31,7 +36,10 @@ class Peer {
     }
 
     // The policy so far; of actions that seem equally good, the lowest.
-    virtual uint32_t greedy(uint32_t state) const = 0;
+    virtual uint32_t greedy(const Seen &seen) const = 0;
+
+    // Rows of its table, or classes.
+    virtual uint64_t states() const = 0;
 };
 
 struct PeerOptions {
@@ -43,7 +51,7 @@ struct PeerOptions {
     uint32_t seed;
 };
 
-// kind is not LearnerKind::own.
+// A peer that has a table.
 std::unique_ptr<Peer> make_peer(const PeerOptions &options);
 
 // Random numbers that are the same with every standard library.

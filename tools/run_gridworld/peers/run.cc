@@ -3,6 +3,7 @@
 
 #include "../failure.h"
 #include "../interrupt.h"
+#include "fitted.h"
 #include "peer.h"
 #include "../policy.h"
 
@@ -41,7 +42,7 @@ Defaults defaults_for(LearnerKind kind) {
     }
 }
 
-PeerOptions make_options(const Options &options, LearnerKind kind, uint32_t seed) {
+PeerOptions options_of(const Options &options, LearnerKind kind, uint32_t seed) {
     const Defaults defaults = defaults_for(kind);
     const bool slippery = options.slip > 0.0f;
     return {kind,
@@ -60,6 +61,14 @@ uint64_t interactions_of(const Options &options, const gridworld_maze &maze, Lea
     return uint64_t{options.interactions} * (returns && options.steps > 0 ? options.steps : 1);
 }
 
+std::unique_ptr<Peer> make(const Options &options, const gridworld_maze &maze, LearnerKind kind,
+                           uint32_t seed) {
+    if (kind == LearnerKind::fitted_q) {
+        return std::make_unique<FittedPeer>(options, maze, seed);
+    }
+    return make_peer(options_of(options, kind, seed));
+}
+
 // The numbers of the states, as the peer sees them.
 class States {
   public:
@@ -73,10 +82,6 @@ class States {
     // The number, or nothing if the state never came.
     std::optional<uint32_t> find(uint32_t cell, const unsigned char *percept) const {
         return told_ ? find_in(cells_, cell) : find_in(percepts_, text(percept));
-    }
-
-    std::size_t count() const {
-        return cells_.size() + percepts_.size();
     }
 
   private:
@@ -114,7 +119,7 @@ class PeerRun {
     Outcome outcome;
 
   private:
-    uint32_t see();
+    Seen see();
 
     const Options &options_;
     const gridworld_maze &maze_;
@@ -122,52 +127,54 @@ class PeerRun {
     std::unique_ptr<Peer> peer_;
     States states_;
     gridworld world_{};
-    std::vector<unsigned char> percept_;
-    uint32_t state_;
+    std::vector<unsigned char> percept_, percept_before_;
+    Seen seen_; // percept_
 };
 
 PeerRun::PeerRun(const Options &options, const gridworld_maze &maze, const Optimum &optimum,
                  LearnerKind kind, uint32_t seed)
-    : options_(options), maze_(maze), optimum_(optimum),
-      peer_(make_peer(make_options(options, kind, seed))),
+    : options_(options), maze_(maze), optimum_(optimum), peer_(make(options, maze, kind, seed)),
       states_(kind != LearnerKind::raw_q_learning,
               GRIDWORLD_PERCEPT_BYTES(gridworld_bits(&maze, options.distractors))),
       percept_(GRIDWORLD_PERCEPT_BYTES(gridworld_bits(&maze, options.distractors))) {
     if (gridworld_init(&world_, &maze, options.distractors, options.slip, seed) != 0) {
         throw Failure("gridworld_init: an argument is out of range");
     }
-    state_ = see();
+    percept_before_ = percept_;
+    seen_ = see();
     outcome.seed = seed;
 }
 
-uint32_t PeerRun::see() {
+Seen PeerRun::see() {
     gridworld_percept(&world_, percept_.data());
-    return states_.number(world_.cell, percept_.data());
+    return {states_.number(world_.cell, percept_.data()), percept_.data()};
 }
 
 void PeerRun::interact() {
     float reward = 0.0f;
-    const uint32_t before = state_, action = peer_->act(before);
+    const uint32_t action = peer_->act(seen_);
+    const Seen before{seen_.state, percept_before_.data()};
+    percept_before_ = percept_;
     const bool over = gridworld_step(&world_, action, &reward) == 1;
     if (over) {
         gridworld_reset(&world_);
     }
-    state_ = see();
-    peer_->observe(before, action, double{reward}, state_, over);
+    seen_ = see();
+    peer_->observe(before, action, double{reward}, seen_, over);
     outcome.interactions++;
 }
 
 void PeerRun::look() {
     peer_->settle();
     const auto decide = [this](uint32_t cell, const unsigned char *percept) {
-        const std::optional<uint32_t> state = states_.find(cell, percept);
-        return Decision{state.value_or(0), state ? peer_->greedy(*state) : 0};
+        const uint32_t state = states_.find(cell, percept).value_or(UINT32_MAX);
+        return Decision{state, peer_->greedy({state, percept})};
     };
     const Policy policy = look_up_policy(decide, maze_, options_.distractors, optimum_);
     const bool optimal = policy.optimal == maze_.free_cells;
     outcome.optimal_cells = policy.optimal;
     outcome.near_optimal_cells = policy.near_optimal;
-    outcome.states = states_.count();
+    outcome.states = peer_->states();
     if (!optimal) {
         outcome.interactions_to_optimal.reset();
     } else if (!outcome.interactions_to_optimal) {

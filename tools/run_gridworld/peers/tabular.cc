@@ -28,30 +28,34 @@ uint32_t TabularPeer::choose(uint32_t state) {
     return action;
 }
 
-uint32_t TabularPeer::act(uint32_t state) {
-    const uint32_t action = chosen_ ? *chosen_ : choose(state);
+uint32_t TabularPeer::act(const Seen &seen) {
+    const uint32_t action = chosen_ ? *chosen_ : choose(seen.state);
     chosen_.reset();
     return action;
 }
 
-void TabularPeer::observe(uint32_t state, uint32_t action, double reward, uint32_t next,
+void TabularPeer::observe(const Seen &seen, uint32_t action, double reward, const Seen &next,
                           bool over) {
     double target = reward;
     if (!over && options_.kind == LearnerKind::told_sarsa) {
-        chosen_ = choose(next);
-        target += options_.discount * row(next)[*chosen_];
+        chosen_ = choose(next.state);
+        target += options_.discount * row(next.state)[*chosen_];
     } else if (!over) {
-        const ActionValues &q = row(next);
+        const ActionValues &q = row(next.state);
         target += options_.discount * *std::max_element(q.begin(), q.end());
     }
-    double &q = row(state)[action];
+    double &q = row(seen.state)[action];
     q += options_.learning_rate * (target - q);
 }
 
-uint32_t TabularPeer::greedy(uint32_t state) const {
-    if (state >= q_.size()) {
+uint32_t TabularPeer::greedy(const Seen &seen) const {
+    if (seen.state >= q_.size()) {
         return 0;
     }
-    const ActionValues &q = q_[state];
+    const ActionValues &q = q_[seen.state];
     return static_cast<uint32_t>(std::max_element(q.begin(), q.end()) - q.begin());
+}
+
+uint64_t TabularPeer::states() const {
+    return q_.size();
 }

@@ -17,9 +17,11 @@ class TabularPeer : public Peer {
   public:
     explicit TabularPeer(const PeerOptions &options);
 
-    uint32_t act(uint32_t state) override;
-    void observe(uint32_t state, uint32_t action, double reward, uint32_t next, bool over) override;
-    uint32_t greedy(uint32_t state) const override;
+    uint32_t act(const Seen &seen) override;
+    void observe(const Seen &seen, uint32_t action, double reward, const Seen &next,
+                 bool over) override;
+    uint32_t greedy(const Seen &seen) const override;
+    uint64_t states() const override;
 
   private:
     ActionValues &row(uint32_t state);
