@@ -22,11 +22,15 @@ def _packed(run, rows):
 
 
 def _compact(run):
+    if run.small is not None:  # found by trials
+        return run.small.leaves, rlvc_act(run)
     policy = run.agent.compact()
     return policy.info.leaves, lambda rows: policy.act(_packed(run, rows))
 
 
 def rlvc_act(run):
+    if run.small is not None:
+        return lambda rows: run.small.act(np.asarray(rows, np.float32))
     return lambda rows: run.agent.predict(_packed(run, rows)).action
 
 

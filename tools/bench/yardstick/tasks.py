@@ -214,7 +214,7 @@ def cartpole():
     good = share(lambda record: record["kept"] >= 475 and record["compacted"] <= 12)
 
     return Task(
-        "cartpole", f"asked: a return of 475, mean of {EPISODES} episodes", 0.99, 20000,
+        "cartpole", f"asked: a return of 475, mean of {EPISODES} episodes", 0.98, 20000,
         lambda seed: gymnasium.make("CartPole-v1"), look,
         (Bar("share of runs with a return of 475 by 12 leaves after compaction", good, 0.9, True),),
         peers=("fqi", "dqn"),
