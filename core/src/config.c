@@ -2,6 +2,8 @@
 /* The config: defaults and ranges. */
 #include "rlvc/agent.h"
 
+#include "solvers.h"
+
 rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, uint32_t actions) {
     static const rlvc_config defaults = {
         .capacity = 2000,
@@ -76,8 +78,8 @@ static const char *wrong_in_choices(const rlvc_config *config) {
         return "criterion must be one of RLVC_CRITERION_*";
     if (config->score > RLVC_SCORE_CHI2)
         return "score must be one of RLVC_SCORE_*";
-    if (config->solver > RLVC_SOLVER_PRIORITIZED)
-        return "solver must be one of RLVC_SOLVER_*";
+    if (config->solver > RLVC_SOLVER_PRIORITIZED || !RLVC_HAS_SOLVER(config->solver))
+        return "solver must be one of RLVC_SOLVER_* that the library was built with";
     if (config->untried > RLVC_UNTRIED_OPTIMISTIC)
         return "untried must be one of RLVC_UNTRIED_*";
     if (config->continuing > 1)

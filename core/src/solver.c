@@ -4,11 +4,15 @@
 
 #include "real.h"
 #include "replay.h"
+#include "solvers.h"
 #include <float.h>
 #include <string.h>
 
 /* Prioritized: GATHER, PREPARE, then CHOOSE, SWEEP and SPREAD for each class that is backed up; CLEAR. */
 enum { SWEEP, IMPROVE, GATHER, PREPARE, CHOOSE, SPREAD, CLEAR };
+
+#define HAS_IMPROVING RLVC_HAS_SOLVER(RLVC_SOLVER_POLICY_ITERATION)
+#define HAS_PRIORITIZED RLVC_HAS_SOLVER(RLVC_SOLVER_PRIORITIZED)
 
 #define INFINITE 0x7f80u /* priorities from here on are not known more exactly */
 #define UNKNOWN UINT16_MAX
@@ -23,19 +27,14 @@ static void restart(rlvc_solver *solver, uint8_t phase) {
 }
 
 void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind) {
-    solver->residual = 0.0f;
-    solver->largest = 0.0f;
-    solver->sweeps = 0;
-    solver->level = 0;
-    solver->highest = 0;
-    solver->backups = 0;
-    solver->prioritized = kind == RLVC_SOLVER_PRIORITIZED;
-    solver->turned = 0;
-    solver->improve = kind == RLVC_SOLVER_POLICY_ITERATION;
-    solver->changed = 0;
-    solver->done = 0;
-    rlvc_predecessors_begin(&solver->predecessors);
-    restart(solver, solver->prioritized ? GATHER : solver->improve ? IMPROVE : SWEEP);
+    const int improve = HAS_IMPROVING && kind == RLVC_SOLVER_POLICY_ITERATION;
+    const int prioritized = HAS_PRIORITIZED && kind == RLVC_SOLVER_PRIORITIZED;
+    memset(solver, 0, sizeof *solver);
+    solver->prioritized = (uint8_t)prioritized;
+    solver->improve = (uint8_t)improve;
+    if (prioritized)
+        rlvc_predecessors_begin(&solver->predecessors);
+    restart(solver, prioritized ? GATHER : improve ? IMPROVE : SWEEP);
 }
 
 static float magnitude(float x) {
@@ -59,10 +58,11 @@ static int settled(const rlvc_solver *solver, const rlvc_solving *solving) {
 
 /* Ends a sweep, or begins the next. */
 static void end_sweep(rlvc_solver *solver, const rlvc_solving *solving) {
+    const int improve = HAS_IMPROVING && solver->improve;
     solver->sweeps++;
-    if (solver->sweeps >= solving->max_sweeps || (settled(solver, solving) && !solver->improve)) {
+    if (solver->sweeps >= solving->max_sweeps || (settled(solver, solving) && !improve)) {
         solver->done = 1;
-    } else if (settled(solver, solving)) {
+    } else if (improve && settled(solver, solving)) {
         solver->changed = 0;
         restart(solver, IMPROVE);
     } else {
@@ -88,7 +88,7 @@ static void back_up(rlvc_solver *solver, const rlvc_solving *solving, rlvc_value
     uint32_t c = solver->class_id;
     float before = values->value[c];
     float after = rlvc_values_best(values, c);
-    if (solver->improve) {
+    if (HAS_IMPROVING && solver->improve) {
         size_t pair = rlvc_values_pair(values, c, values->trial[c]);
         after = rlvc_values_counts(values, pair) ? values->q[pair] : before;
     }
@@ -96,7 +96,7 @@ static void back_up(rlvc_solver *solver, const rlvc_solving *solving, rlvc_value
     float change = magnitude(after - before);
     solver->largest = magnitude(after) > solver->largest ? magnitude(after) : solver->largest;
     solver->action = 0;
-    if (solver->turned) {
+    if (HAS_PRIORITIZED && solver->turned) {
         solver->residual = change;
         solver->transition = group_of(solving, values, c)->key;
         solver->phase = SPREAD;
@@ -262,17 +262,10 @@ static void spread(rlvc_solver *solver, const rlvc_solving *solving, const rlvc_
     }
 }
 
-/* ------------------------------------------------------------------ all of them */
-
-/* Works on the phase; returns the work. */
-static uint32_t step_phase(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
-                           uint32_t budget) {
+/* Takes a step of a phase that only prioritized sweeping has. */
+static void step_prioritized(rlvc_solver *solver, const rlvc_solving *solving,
+                             const rlvc_values *values) {
     switch (solver->phase) {
-    case SWEEP:
-        return sweep(solver, solving, values, budget);
-    case IMPROVE:
-        improve(solver, solving, values);
-        break;
     case GATHER:
         gather(solver, solving, values);
         break;
@@ -286,6 +279,19 @@ static uint32_t step_phase(rlvc_solver *solver, const rlvc_solving *solving, rlv
         set_priority(solver, solving);
         break;
     }
+}
+
+/* ------------------------------------------------------------------ all of them */
+
+/* Works on the phase; returns the work. */
+static uint32_t step_phase(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
+                           uint32_t budget) {
+    if (HAS_PRIORITIZED && solver->phase > IMPROVE)
+        step_prioritized(solver, solving, values);
+    else if (HAS_IMPROVING && solver->phase == IMPROVE)
+        improve(solver, solving, values);
+    else
+        return sweep(solver, solving, values, budget);
     return 1;
 }
 

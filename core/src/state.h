@@ -7,6 +7,7 @@
 #include "rng.h"
 #include "seek.h"
 #include "solver.h"
+#include "solvers.h"
 #include "split.h"
 #include "succession.h"
 #include "tree.h"
@@ -56,7 +57,8 @@ struct rlvc_agent {
 };
 
 static inline int rlvc_is_incremental(const rlvc_config *config) {
-    return config->solver == RLVC_SOLVER_Q_LEARNING || config->solver == RLVC_SOLVER_SARSA;
+    return (RLVC_HAS_SOLVER(RLVC_SOLVER_Q_LEARNING) && config->solver == RLVC_SOLVER_Q_LEARNING) ||
+           (RLVC_HAS_SOLVER(RLVC_SOLVER_SARSA) && config->solver == RLVC_SOLVER_SARSA);
 }
 
 #endif

@@ -33,6 +33,7 @@ BARE = ["--crt0=minimal", "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000"
 FLASH_MAX = 20 * 1024  # of the library without printing on the M3, by -Os; with the helpers by -Os -flto
 RAM_MAX = 32 * 1024    # of learning the Binary Gridworld there
 LEVELS = ("-O2", "-Os", "-Os -flto")
+LEAN = "-DRLVC_SOLVERS=1"  # a controller's library: with the one solver that it uses
 HELPER_STACK = 64      # granted to a function of the compiler's own library
 
 
@@ -41,13 +42,14 @@ def run(*command):
                           text=True).stdout
 
 
-def compile_core(target, level, folder):
+def compile_core(target, level, folder, *definitions):
     prefix, options = TARGETS[target]
     objects = {}
+    folder.mkdir(exist_ok=True)
     for source in sources():
         name = f"{source.parent.name}/{source.stem}"
         objects[name] = folder / f"{target}{level}_{source.parent.name}_{source.stem}.o"
-        run(prefix + "gcc", *FLAGS, *options, *level.split(), "-fstack-usage", "-fcallgraph-info=su",
+        run(prefix + "gcc", *FLAGS, *options, *level.split(), *definitions, "-fstack-usage", "-fcallgraph-info=su",
             f"-I{ROOT}/core/include", "-c", source, "-o", objects[name])
     return objects
 
@@ -179,7 +181,7 @@ def stack_table(objects):
 
 def table(folder, compilers):
     objects = {target: compile_core(target, "-O2", folder) for target in TARGETS}
-    flash = {level: {target: linked(target, level, compile_core(target, level, folder), folder)
+    flash = {level: {target: linked(target, level, compile_core(target, level, folder / "lean", LEAN), folder)
                      for target in TARGETS} for level in LEVELS}
     memory, block = image_memory(folder)
     yield f"""# Size on microcontrollers
@@ -190,8 +192,8 @@ has writable data.
 
 ## A learner in flash
 
-What the linker keeps of the library in a program that learns by bits and does not print. Beside it
-stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
+What the linker keeps of the library in a program that learns by bits and does not print, if it is built with one
+solver, value iteration (`-DRLVC_SOLVERS=1`, core/src/solvers.h). Beside it stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
 division). On the M3 the library may take {FLASH_MAX:,} by -Os, and both together no more than that with link-time
 optimisation (-flto).
 
