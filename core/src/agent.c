@@ -126,7 +126,7 @@ rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice) {
     if (run > 0)
         action = agent->values.policy[class_id];
     else if (directed)
-        action = rlvc_explorer_choose(&agent->explorer, &agent->values, class_id, &rng);
+        action = rlvc_explorer_choose(&agent->explorer, agent->config.actions, class_id, &rng);
     else
         action = rlvc_rng_below(&rng, agent->config.actions);
     if (directed)

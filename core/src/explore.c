@@ -72,24 +72,22 @@ static uint32_t draw(const rlvc_explorer *explorer, uint32_t actions, uint32_t c
 }
 
 /* The action that goes after little-tried pairs. */
-static uint32_t seek(const rlvc_explorer *explorer, const rlvc_values *values, uint32_t class_id,
+static uint32_t seek(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
                      rlvc_rng *rng) {
-    const uint8_t *seen = seen_in(explorer, values->actions, class_id);
+    const uint8_t *seen = seen_in(explorer, actions, class_id);
     uint32_t least = 0, lead = explorer->lead[class_id];
-    for (uint32_t a = 1; a < values->actions; a++)
+    for (uint32_t a = 1; a < actions; a++)
         least = seen[a] < seen[least] ? a : least;
     if (seen[least] < explorer->least)
         return least;
-    if (lead == RLVC_HERE)
-        return draw(explorer, values->actions, class_id, rng);
-    return lead == RLVC_NOWHERE ? values->policy[class_id] : lead;
+    return lead < RLVC_HERE ? lead : draw(explorer, actions, class_id, rng);
 }
 
-uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, const rlvc_values *values,
-                              uint32_t class_id, rlvc_rng *rng) {
+uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
+                              rlvc_rng *rng) {
     if (explorer->least > 0 && rlvc_rng_uniform(rng) < 0.5f)
-        return seek(explorer, values, class_id, rng);
-    return draw(explorer, values->actions, class_id, rng);
+        return seek(explorer, actions, class_id, rng);
+    return draw(explorer, actions, class_id, rng);
 }
 
 void rlvc_explorer_note(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,

@@ -6,9 +6,8 @@
  *     m = max(3, a quarter of the mean over all pairs).
  *
  * One exploring action in two goes after such pairs: the least tried action of the class if that is little
- * tried, else the action that leads to a little-tried pair soonest (seek.h), or, where none can be
- * reached, the greedy one. The other, and that of a class whose own little-tried pairs have been tried since that was found, is
- * drawn with the weight
+ * tried, else the action that leads to a little-tried pair soonest (seek.h). The other is drawn, and so is that of a class from
+ * where none can be reached, or whose own little-tried pairs have been tried since that was found, with the weight
  *
  *     w(a) = p(a) / (1 + min(n(c, a), 8))^4,    p(a) = 4 if a was the action before, else 1.
  *
@@ -51,8 +50,8 @@ void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t clas
 uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs);
 
 /* Chooses an exploring action for a class. O(actions). */
-uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, const rlvc_values *values,
-                              uint32_t class_id, rlvc_rng *rng);
+uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
+                              rlvc_rng *rng);
 
 /* Takes note of the action chosen in a class, for whatever reason. O(1). */
 void rlvc_explorer_note(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,

@@ -51,9 +51,9 @@ typedef struct rlvc_agent rlvc_agent;
 
 /* config.explore: which action is tried where the greedy one is not taken. */
 #define RLVC_EXPLORE_UNIFORM 0u  /* any, all alike, as published */
-#define RLVC_EXPLORE_DIRECTED 1u /* one in two leads to the nearest class-action pair that was little tried, and is
-                                    the greedy one where there is none; the other is drawn with preference for what was
-                                    seldom tried in the class, and for the action before (SPEC.md) */
+#define RLVC_EXPLORE_DIRECTED 1u /* one in two leads to the nearest class-action pair that was little tried, if
+                                    there is one; the other is drawn with preference for what was seldom tried in
+                                    the class, and for the action before (SPEC.md) */
 
 /* Chosen once, copied by rlvc_agent_init. Start from rlvc_config_default. */
 typedef struct rlvc_config {
