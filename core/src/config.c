@@ -78,7 +78,8 @@ static const char *wrong_in_choices(const rlvc_config *config) {
         return "criterion must be one of RLVC_CRITERION_*";
     if (config->score > RLVC_SCORE_CHI2)
         return "score must be one of RLVC_SCORE_*";
-    if (config->solver > RLVC_SOLVER_PRIORITIZED || !RLVC_HAS_SOLVER(config->solver))
+    unsigned solver = config->solver <= RLVC_SOLVER_PRIORITIZED ? 1u << config->solver : 0u;
+    if (!((unsigned)(RLVC_SOLVERS) & solver))
         return "solver must be one of RLVC_SOLVER_* that the library was built with";
     if (config->untried > RLVC_UNTRIED_OPTIMISTIC)
         return "untried must be one of RLVC_UNTRIED_*";

@@ -284,7 +284,8 @@ def test_ended_early_it_prints_what_is_there(how, tmp_path):
         [*COMMAND, "--tasks", "lake,far", "--learners", "rlvc", "--seeds", "2", "--jobs", "1",
          "--json", "out.json"],
         cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=theirs, text=True,
-        start_new_session=True)
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # a shell may have it ignored
     os.close(theirs)
     said = ""
     while "2/4" not in said:
