@@ -16,7 +16,7 @@ void rlvc_explorer_carve(rlvc_explorer *explorer, rlvc_arena *arena, const rlvc_
 void rlvc_explorer_clear(rlvc_explorer *explorer, uint32_t actions) {
     for (uint32_t a = 0; a < actions; a++)
         explorer->seen[a] = 0;
-    explorer->lead[0] = RLVC_NOWHERE;
+    explorer->lead[0] = RLVC_NO_ACTION;
     explorer->least = 0;
     explorer->last = RLVC_NO_ACTION;
 }
@@ -80,7 +80,7 @@ static uint32_t seek(const rlvc_explorer *explorer, uint32_t actions, uint32_t c
         least = seen[a] < seen[least] ? a : least;
     if (seen[least] < explorer->least)
         return least;
-    return lead < RLVC_HERE ? lead : draw(explorer, actions, class_id, rng);
+    return lead != RLVC_NO_ACTION ? lead : draw(explorer, actions, class_id, rng);
 }
 
 uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
@@ -101,7 +101,7 @@ int rlvc_explorer_check(const rlvc_explorer *explorer, uint32_t actions, uint32_
     if (explorer->last != RLVC_NO_ACTION && explorer->last >= actions)
         return 0;
     for (uint32_t c = 0; c < classes; c++) {
-        if (explorer->lead[c] < RLVC_HERE && explorer->lead[c] >= actions)
+        if (explorer->lead[c] != RLVC_NO_ACTION && explorer->lead[c] >= actions)
             return 0;
     }
     return 1;

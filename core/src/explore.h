@@ -17,20 +17,19 @@
 #ifndef RLVC_SRC_EXPLORE_H
 #define RLVC_SRC_EXPLORE_H
 
+#include "arena.h"
 #include "rng.h"
-#include "values.h"
 
-#define RLVC_NO_ACTION 255u /* last, before the first action */
-#define RLVC_NOWHERE 65535u /* lead[c]: no little-tried pair can be reached */
-#define RLVC_HERE 65534u    /* lead[c]: one of the class's own pairs was little tried */
+#define RLVC_NO_ACTION 255u
 
 typedef struct rlvc_explorer {
     uint8_t *seen; /* [classes_max][actions] n(c, a): interactions in the ring when last counted, and
                       choices since; 255 stands for more */
-    uint16_t *lead; /* [classes_max] the action that leads to a little-tried pair soonest, RLVC_HERE or
-                       RLVC_NOWHERE, as was found when last looked */
+    uint8_t *lead; /* [classes_max] the action that leads to a little-tried pair of another class
+                      soonest, as was found when last looked; RLVC_NO_ACTION: none can be reached, or
+                      one of the class's own was little tried */
     uint8_t least; /* m; 0 before the first learning step, when nothing is known of what leads where */
-    uint8_t last;  /* the action before */
+    uint8_t last;  /* the action before, or RLVC_NO_ACTION */
 } rlvc_explorer;
 
 /* Carves the tables. O(1). */

@@ -36,9 +36,8 @@ static void close_class(rlvc_seeking *seeking, const rlvc_solving *solving, floa
     float change = seeking->best - near_by[c];
     seeking->largest = change > seeking->largest ? change : seeking->largest;
     near_by[c] = seeking->best;
-    explorer->lead[c] = (uint16_t)(seeking->best <= OUT_OF_REACH ? RLVC_NOWHERE
-                                   : seeking->best < 1.0f        ? seeking->lead
-                                                                 : RLVC_HERE);
+    int leads = seeking->best > OUT_OF_REACH && seeking->best < 1.0f;
+    explorer->lead[c] = leads ? seeking->lead : (uint8_t)RLVC_NO_ACTION;
     begin_class(seeking);
     if (++seeking->class_id < solving->classes)
         return;

@@ -147,8 +147,7 @@ static void pass_explorer(rlvc_stream *s, rlvc_agent *agent) {
     rlvc_explorer *explorer = &agent->explorer;
     rlvc_stream_u8(s, &explorer->least);
     rlvc_stream_u8(s, &explorer->last);
-    for (uint32_t c = 0; c < agent->tree.classes; c++)
-        rlvc_stream_u16(s, &explorer->lead[c]);
+    rlvc_stream_bytes(s, explorer->lead, agent->tree.classes);
     rlvc_stream_bytes(s, explorer->seen, agent->tree.classes * agent->config.actions);
 }
 
@@ -199,7 +198,7 @@ static uint64_t largest(const rlvc_config *config, const rlvc_domain *domain) {
     uint64_t size = RLVC_SNAPSHOT_FIXED_BYTES;
     size += ((uint64_t)config->capacity + 1u) * (domain->percept_bytes + 8u);
     size += (classes - 1u) * (domain->feature_bytes + 28u);
-    size += classes * 10u + classes * config->actions * 13u;
+    size += classes * 9u + classes * config->actions * 13u;
     return (size + unit - 1u) / unit * unit;
 }
 

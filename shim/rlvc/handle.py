@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import ctypes
+import json
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -51,6 +52,8 @@ _Self = TypeVar("_Self", bound="Handle")
 
 class Handle:
     """What C knows an agent by. The methods of an agent are in :class:`rlvc.Agent`."""
+
+    _print = "rlvc_print"
 
     def _make(
         self,
@@ -132,12 +135,34 @@ class Handle:
 
     # -------------------------------------------------------------- what C writes
 
-    def _printed(self, function: str, form: str) -> str:
+    @property
+    def tree(self) -> dict[str, Any]:
+        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
+        tree: dict[str, Any] = json.loads(self.print("json"))
+        return tree
+
+    def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
+        """Print the tree with the action of each leaf; an agent prints values and numbers, too.
+
+        Parameters
+        ----------
+        form : {"text", "dot", "json"}
+            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            There is no such form.
+        """
         forms = {"text": _lib.PRINT_TEXT, "dot": _lib.PRINT_DOT, "json": _lib.PRINT_JSON}
         if form not in forms:
             raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
         parts: list[bytes] = []
-        self._check(self._long(function, forms[form], self._writer(parts), None))
+        self._check(self._long(self._print, forms[form], self._writer(parts), None))
         return b"".join(parts).decode()
 
     def _exported(self, function: str, name: str) -> str:

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-import json
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -169,31 +168,6 @@ class Looking(Handle):
                 )
             )
         return splits
-
-    @property
-    def tree(self) -> dict[str, Any]:
-        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
-        tree: dict[str, Any] = json.loads(self.print("json"))
-        return tree
-
-    def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
-        """Print the tree with the action, value and numbers of each class.
-
-        Parameters
-        ----------
-        form : {"text", "dot", "json"}
-            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        RangeError
-            There is no such form.
-        """
-        return self._printed("rlvc_print", form)
 
     def export_c(self, name: str = "policy") -> str:
         """Give the learnt policy as a C99 header for a controller that only acts.

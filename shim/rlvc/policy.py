@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-import json
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -82,6 +81,8 @@ class Policy(Handle):
     (1, 0)
     """
 
+    _print = "rlvc_policy_print"
+
     def __init__(self, agent: Agent, **changes: Any) -> None:
         native, size = _lib.PolicyConfig(), ctypes.c_size_t()
         agent._check(_lib.call.rlvc_policy_default(agent._handle, _byref(native)))
@@ -146,31 +147,6 @@ class Policy(Handle):
             self._fail(status, done.value)
         return actions
 
-    @property
-    def tree(self) -> dict[str, Any]:
-        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
-        tree: dict[str, Any] = json.loads(self.print("json"))
-        return tree
-
-    def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
-        """Print the tree with the action of each leaf.
-
-        Parameters
-        ----------
-        form : {"text", "dot", "json"}
-            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        RangeError
-            There is no such form.
-        """
-        return self._printed("rlvc_policy_print", form)
-
     def export_c(self, name: str = "policy") -> str:
         """Give the policy as a C99 header; see :meth:`rlvc.Agent.export_c`.
 
@@ -188,7 +164,7 @@ class Policy(Handle):
         RangeError
             ``name`` is no such identifier.
         ConfigError
-            The domain is neither :class:`Bits` nor :class:`Descriptors`.
+            The domain is none of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
         """
         return self._exported("rlvc_policy_export_c", name)
 

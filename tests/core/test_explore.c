@@ -77,9 +77,7 @@ static void test_going_after(void **state) {
     set_seen(0, 9, 9, 9, 9);
     explorer.lead[0] = 2; /* elsewhere */
     check_shares(0, (const double[ACTIONS]){0.125, 0.125, 0.625, 0.125});
-    explorer.lead[0] = RLVC_HERE; /* no longer here */
-    check_shares(0, (const double[ACTIONS]){0.25, 0.25, 0.25, 0.25});
-    explorer.lead[0] = RLVC_NOWHERE;
+    explorer.lead[0] = RLVC_NO_ACTION; /* neither */
     check_shares(0, (const double[ACTIONS]){0.25, 0.25, 0.25, 0.25});
 }
 
@@ -121,7 +119,7 @@ static void test_check(void **state) {
     explorer.lead[1] = ACTIONS;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 1));
     assert_false(rlvc_explorer_check(&explorer, ACTIONS, 2));
-    explorer.lead[1] = RLVC_HERE;
+    explorer.lead[1] = RLVC_NO_ACTION;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 2));
     explorer.last = ACTIONS - 1u;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 1));

@@ -250,7 +250,7 @@ static rlvc_status load_forged(const rlvc_store *store, uint32_t at, uint64_t nu
 }
 
 /* m and the last action, then for each class what leads on, and 4 counts. */
-#define EXPLORER_BYTES(classes) (2u + 6u * (classes))
+#define EXPLORER_BYTES(classes) (2u + 5u * (classes))
 #define NOT_A_NUMBER 0x7fc00000u
 
 static void test_unsound_fields(void **state) {
@@ -296,7 +296,7 @@ static void test_unsound_fields(void **state) {
         {values + 8u, NOT_A_NUMBER, 4},
         {values + 12u, NOT_A_NUMBER, 4},
         {explorer + 1u, 4, 1}, /* the last action */
-        {explorer + 2u, 4, 2}, /* an action that leads on */
+        {explorer + 2u, 4, 1}, /* an action that leads on */
         {learner, 10, 1},      /* phase */
         {learner, 2, 1},       /* that this solver does not have */
         {learner + 30u, 1, 4}, /* a mark between two steps */

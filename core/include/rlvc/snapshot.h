@@ -54,7 +54,7 @@ RLVC_API rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_do
 /* The same as a constant expression. */
 #define RLVC_SNAPSHOT_BYTES(actions, capacity, classes, percept_bytes, feature_bytes)              \
     (((size_t)RLVC_SNAPSHOT_FIXED_BYTES + ((size_t)(capacity) + 1u) * ((percept_bytes) + 8u) +     \
-      ((size_t)(classes)-1u) * ((feature_bytes) + 28u) + (size_t)(classes)*10u +                   \
+      ((size_t)(classes)-1u) * ((feature_bytes) + 28u) + (size_t)(classes)*9u +                    \
       (size_t)(classes) * (actions)*13u + 63u) /                                                   \
      64u * 64u)
 #define RLVC_SNAPSHOT_FIXED_BYTES 225u
