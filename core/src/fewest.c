@@ -1,19 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 /* The decision tree of the fewest leaves: see rlvc/fewest.h.
  *
- * A subset of the rows that some tests lead to is named by the features that all its rows share and by
- * their values: of the rows just those of the subset have these. F(S), the fewest leaves of a subset, is
+ * For a subset S of the rows let F(S) be the fewest leaves of a tree in which each ends well:
  *
  *     F(S) = 1                                        if all rows of S allow a common action, else
  *     F(S) = min over the features f that part S of F(S without f) + F(S with f)
  *
- * The rows stand in an order in which each subset under examination is a stretch, as in quicksort: it is
- * parted in place, and what goes on below it moves rows only within its own parts. The subsets on the way
- * down are frames on a stack of our own, at most one for each feature.
+ * The same tests in another order lead to the same subset, so that each is solved but once and its F(S) kept
+ * in a table. Its key is what all rows of S have in common, which features and with which values: of the
+ * rows that some tests lead to no others have these.
  *
- * Branch and bound: a frame is asked for a tree of at most `limit` leaves. The table keeps of each subset
- * F(S), or else a lower bound of it, which at first is the number of its rows that pairwise allow nothing in
- * common (chosen greedily). A pair of sides is left as soon as their bounds add up to too many. */
+ * search() finds F(S) depth first, without recursion: a frame of a stack of our own tries one feature after
+ * another, and waits for the frame above it, which solves one side of the parted subset. There is at most
+ * one for each feature. The rows stand in an order in which each subset under examination is a stretch, as
+ * in quicksort: it is parted in place, and what goes on in the frames above moves rows only within its own
+ * part.
+ *
+ * Branch and bound: for a subset that is not solved yet the table keeps a lower bound of F(S), which at first
+ * is the number of its rows that pairwise allow nothing in common (chosen greedily). A feature is passed as
+ * soon as the bounds of its two sides add up to as much as the best one so far, and a frame is asked only
+ * for a tree that would be better than that.
+ *
+ * grow() then puts the tree down from its root, as the table says; where that or the effort did not suffice,
+ * by the feature that purifies best. */
 #include "rlvc/fewest.h"
 
 #include "arena.h"
@@ -31,21 +40,22 @@ typedef struct entry {
 typedef struct glance {
     uint32_t leaves; /* F(S), or a lower bound of it */
     uint32_t slot;   /* its place in the table, used or not; of no meaning if one leaf is enough */
-    uint8_t exact;
+    uint8_t exact;   /* leaves is F(S) */
 } glance;
 
+/* How far the search for the tree of a stretch has come. */
 typedef struct frame {
     uint32_t begin, end; /* the stretch */
     uint32_t middle;     /* its rows with the feature under trial stand from here on */
-    uint32_t slot;
-    uint32_t limit;   /* a tree of more leaves is of no use */
-    uint32_t best;    /* leaves of the best tree so far; limit + 1 at first */
-    uint32_t root;    /* the feature at its root */
-    uint32_t bound;   /* the least sum of bounds among the features passed */
-    uint32_t feature; /* under trial */
-    glance side[2];   /* without and with it; looked at if `parted` */
+    uint32_t slot;       /* its place in the table */
+    uint32_t limit;      /* a tree of more leaves is of no use */
+    uint32_t best;       /* leaves of the best tree so far; limit + 1 at first */
+    uint32_t root;       /* the feature at its root, or NONE */
+    uint32_t bound;      /* the least sum of both sides' bounds among the features passed */
+    uint32_t feature;    /* under trial */
+    glance side[2];      /* without and with it; looked at if `parted` */
     uint8_t parted;
-    uint8_t under; /* the side below it on the stack, if `entered` */
+    uint8_t above; /* the side that the frame above solves, if `entered` */
     uint8_t entered;
 } frame;
 
@@ -65,11 +75,11 @@ typedef struct fewest {
     uint64_t left;            /* of the effort of this search */
     uint8_t torn;             /* alike rows without a common action were met */
     entry *table;             /* [mask + 1] */
-    uint64_t *key;            /* [mask + 1][2 * words] features shared, their values */
-    uint64_t *name;           /* [2 * words] the key of the stretch last looked at */
+    uint64_t *keys;           /* [mask + 1][2 * words] features shared, their values */
+    uint64_t *key;            /* [2 * words] that of the stretch last looked at */
     uint32_t *order;          /* [rows] */
     frame *frames;            /* [depth] */
-    part *todo;               /* [depth + 1] */
+    part *todo;               /* [depth + 1] a stack, too */
     rlvc_fewest_split *split; /* [rows - 1] */
     uint8_t *action;          /* [rows] */
 } fewest;
@@ -85,9 +95,9 @@ static void carve(fewest *s, rlvc_arena *arena) {
     s->order = rlvc_arena_carve(arena, task->rows, sizeof *s->order);
     s->frames = rlvc_arena_carve(arena, depth, sizeof *s->frames);
     s->todo = rlvc_arena_carve(arena, depth + 1u, sizeof *s->todo);
-    s->name = rlvc_arena_carve(arena, 2u * s->words, sizeof *s->name);
+    s->key = rlvc_arena_carve(arena, 2u * s->words, sizeof *s->key);
     s->table = rlvc_arena_carve(arena, (uint64_t)s->mask + 1u, sizeof *s->table);
-    s->key = rlvc_arena_carve(arena, ((uint64_t)s->mask + 1u) * 2u * s->words, sizeof *s->key);
+    s->keys = rlvc_arena_carve(arena, ((uint64_t)s->mask + 1u) * 2u * s->words, sizeof *s->keys);
 }
 
 static const uint64_t *row_at(const fewest *s, uint32_t at) {
@@ -108,17 +118,17 @@ static void spend(fewest *s, uint64_t words) {
 
 /* ------------------------------------------------------------------ the table */
 
-/* Where the name stands in the table, or would. */
+/* Where the key stands in the table, or would. */
 static uint32_t find(const fewest *s) {
     uint64_t hash = 0;
     for (uint32_t w = 0; w < 2u * s->words; w++) {
-        hash = (hash ^ s->name[w]) * 0x9E3779B97F4A7C15u;
+        hash = (hash ^ s->key[w]) * 0x9E3779B97F4A7C15u;
         hash ^= hash >> 32;
     }
     uint32_t slot = (uint32_t)hash & s->mask;
-    size_t bytes = 2u * s->words * sizeof *s->name;
+    size_t bytes = 2u * s->words * sizeof *s->key;
     while (s->table[slot].leaves != 0 &&
-           memcmp(s->key + (size_t)slot * 2u * s->words, s->name, bytes) != 0)
+           memcmp(s->keys + (size_t)slot * 2u * s->words, s->key, bytes) != 0)
         slot = (slot + 1u) & s->mask;
     return slot;
 }
@@ -129,10 +139,10 @@ static void clear(fewest *s) {
     s->deep = 0;
 }
 
-/* Names a stretch: the features that all its rows share, then their values.
+/* Makes the key of a stretch: the features that all its rows share, then their values.
  * @return whether there is a feature that parts it. */
-static int name(fewest *s, uint32_t begin, uint32_t end) {
-    uint64_t *any = s->name, *all = s->name + s->words;
+static int make_key(fewest *s, uint32_t begin, uint32_t end) {
+    uint64_t *any = s->key, *all = s->key + s->words;
     int parts = 0;
     memset(any, 0, s->words * sizeof *any);
     memset(all, 0xFF, s->words * sizeof *all);
@@ -144,8 +154,7 @@ static int name(fewest *s, uint32_t begin, uint32_t end) {
         }
     }
     for (uint32_t w = 0; w < s->words; w++) {
-        any[w] =
-            ~(any[w] ^ all[w]); /* shared; as no row has bits beyond its features, so are those */
+        any[w] = ~(any[w] ^ all[w]); /* shared; bits beyond the features, which no row has, too */
         parts |= any[w] != UINT64_MAX;
     }
     return parts;
@@ -159,8 +168,8 @@ static uint64_t common(const fewest *s, uint32_t begin, uint32_t end) {
     return actions;
 }
 
-/* Rows that pairwise allow nothing in common: as many leaves are needed. */
-static uint32_t apart(const fewest *s, uint32_t begin, uint32_t end) {
+/* A lower bound of F(S): rows that pairwise allow nothing in common need a leaf each. */
+static uint32_t lower_bound(const fewest *s, uint32_t begin, uint32_t end) {
     uint64_t taken = 0;
     uint32_t count = 0;
     for (uint32_t at = begin; at < end; at++) {
@@ -172,6 +181,7 @@ static uint32_t apart(const fewest *s, uint32_t begin, uint32_t end) {
     return count < 2 ? 2 : count;
 }
 
+/* Betters a glance by what the table knows. */
 static void recall(const fewest *s, glance *seen) {
     const entry *known = &s->table[seen->slot];
     if (known->leaves > seen->leaves)
@@ -179,15 +189,15 @@ static void recall(const fewest *s, glance *seen) {
     seen->exact = known->leaves != 0 && known->feature != NONE;
 }
 
-/* Looks at a stretch that is not empty. */
+/* Looks at a stretch that is not empty, and unless one leaf is enough makes its key. */
 static glance look(fewest *s, uint32_t begin, uint32_t end) {
     glance seen = {1, 0, 1};
     spend(s, (uint64_t)(end - begin) * (s->words + 1u));
     if (common(s, begin, end) != 0)
         return seen;
-    if (!name(s, begin, end))
+    if (!make_key(s, begin, end))
         s->torn = 1;
-    seen.leaves = apart(s, begin, end);
+    seen.leaves = lower_bound(s, begin, end);
     seen.slot = find(s);
     recall(s, &seen);
     return seen;
@@ -196,7 +206,7 @@ static glance look(fewest *s, uint32_t begin, uint32_t end) {
 /* ------------------------------------------------------------------ the search */
 
 /* Brings the rows of a stretch that lack a feature before those that have it. Returns where these begin. */
-static uint32_t put_apart(fewest *s, uint32_t begin, uint32_t end, uint32_t feature) {
+static uint32_t partition(fewest *s, uint32_t begin, uint32_t end, uint32_t feature) {
     spend(s, end - begin);
     while (begin < end) {
         if (exhibits(s, begin, feature)) {
@@ -210,19 +220,25 @@ static uint32_t put_apart(fewest *s, uint32_t begin, uint32_t end, uint32_t feat
     return begin;
 }
 
-/* Begins to search for a tree of a stretch; its glance is new, so that the name is its own.
+/* Begins to search for a tree of at most `limit` leaves of a stretch, which was the last looked at, so that
+ * the key is its own.
  * @return 0: the table is full, or the effort is spent. */
 static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, uint32_t limit) {
-    const frame fresh = {begin,      end,  begin, seen->slot, limit,
-                         limit + 1u, NONE, NONE,  0,          {{0, 0, 0}, {0, 0, 0}},
-                         0,          0,    0};
+    const frame fresh = {.begin = begin,
+                         .end = end,
+                         .middle = begin,
+                         .slot = seen->slot,
+                         .limit = limit,
+                         .best = limit + 1u,
+                         .root = NONE,
+                         .bound = NONE};
     entry *known = &s->table[seen->slot];
     if (known->leaves == 0) {
         if (s->used >= s->mask - s->mask / 8u)
             return 0;
         s->used++;
-        memcpy(s->key + (size_t)seen->slot * 2u * s->words, s->name,
-               2u * s->words * sizeof *s->name);
+        memcpy(s->keys + (size_t)seen->slot * 2u * s->words, s->key,
+               2u * s->words * sizeof *s->key);
         known->leaves = seen->leaves;
         known->feature = NONE;
     }
@@ -230,6 +246,8 @@ static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, ui
     return s->left > 0;
 }
 
+/* Ends the search of the frame on top. If it found no tree within its limit, all features were passed, and the
+ * least of their bounds is one of F(S). */
 static void leave(fewest *s) {
     const frame *f = &s->frames[--s->deep];
     entry *known = &s->table[f->slot];
@@ -244,7 +262,7 @@ static void leave(fewest *s) {
 /* Parts the stretch by the feature under trial and looks at both sides.
  * @return 0: one of them is empty. */
 static int look_at_sides(fewest *s, frame *f) {
-    f->middle = put_apart(s, f->begin, f->end, f->feature);
+    f->middle = partition(s, f->begin, f->end, f->feature);
     if (f->middle == f->begin || f->middle == f->end)
         return 0;
     f->side[0] = look(s, f->begin, f->middle);
@@ -254,7 +272,7 @@ static int look_at_sides(fewest *s, frame *f) {
 }
 
 /* Goes on to the next feature. What is known to need so many leaves cannot be better. */
-static void next(fewest *s, frame *f) {
+static void next_feature(fewest *s, frame *f) {
     const int fewest_possible = f->root != NONE && f->best == s->table[f->slot].leaves;
     f->parted = 0;
     f->feature = fewest_possible ? s->task->features : f->feature + 1u;
@@ -269,26 +287,26 @@ static int step(fewest *s) {
         return 1;
     }
     if (f->entered)
-        recall(s, &f->side[f->under]);
+        recall(s, &f->side[f->above]);
     f->entered = 0;
     if (!f->parted && !look_at_sides(s, f)) {
-        next(s, f);
+        next_feature(s, f);
         return 1;
     }
     const uint32_t sum = f->side[0].leaves + f->side[1].leaves;
-    const uint8_t side = f->side[0].exact;
+    const uint8_t side = f->side[0].exact; /* to be solved: the one without, then the one with it */
     if (sum >= f->best || f->side[side].exact) {
         f->bound = sum < f->bound ? sum : f->bound;
         if (sum < f->best) {
             f->best = sum;
             f->root = f->feature;
         }
-        next(s, f);
+        next_feature(s, f);
         return 1;
     }
     const uint32_t begin = side ? f->middle : f->begin, end = side ? f->end : f->middle;
-    f->side[side] = look(s, begin, end); /* for its name, and as its place may have been taken */
-    f->under = side;
+    f->side[side] = look(s, begin, end); /* for its key, and as its place may have been taken */
+    f->above = side;
     f->entered = 1;
     return enter(s, begin, end, &f->side[side], f->best - 1u - f->side[1u - side].leaves);
 }
@@ -402,7 +420,7 @@ static uint8_t grow(fewest *s) {
             s->action[now.leaf] = lowest(common(s, now.begin, now.end));
         } else {
             const uint32_t feature = root_of(s, now.begin, now.end, &seen, &exact);
-            const uint32_t middle = put_apart(s, now.begin, now.end, feature);
+            const uint32_t middle = partition(s, now.begin, now.end, feature);
             const rlvc_fewest_split split = {now.leaf, feature};
             const part present = {middle, now.end, s->leaves},
                        absent = {now.begin, middle, now.leaf};

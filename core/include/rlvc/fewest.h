@@ -24,19 +24,18 @@ extern "C" {
 /* Words of a row. */
 #define RLVC_FEWEST_WORDS(features) (((uint32_t)(features) + 63u) / 64u)
 
+/* The rows, and how much may be spent on them. */
 typedef struct rlvc_fewest_task {
-    const uint64_t
-        *row; /* [rows][words]: feature f is bit f % 64 of word f / 64 of a row, the bits from
-                                `features` on are 0 */
+    const uint64_t *row;     /* [rows][words] feature f is bit f % 64 of word f / 64 of a row; the
+                                bits from `features` on are 0 */
     const uint64_t *allowed; /* [rows] bit a: action a is allowed. Not 0 */
     uint32_t rows;           /* [1, RLVC_FEWEST_ROWS_MAX] */
     uint32_t features;       /* [0, RLVC_FEWEST_FEATURES_MAX] */
-    uint32_t
-        entries; /* of the table of subsets, [2, RLVC_FEWEST_ENTRIES_MAX]; only the greatest power
-                                of two in it is used, and of that seven eighths */
-    uint32_t reserved; /* 0 */
-    uint64_t effort; /* words looked at, at most about so many for the whole, and for a part of the
-                                rows in proportion, [1, RLVC_FEWEST_EFFORT_MAX] */
+    uint32_t entries;        /* of the table of subsets, [2, RLVC_FEWEST_ENTRIES_MAX]; only the
+                                greatest power of two in it is used, and of that seven eighths */
+    uint32_t reserved;       /* 0 */
+    uint64_t effort;         /* words looked at, at most about so many for the whole, and for a
+                                part of the rows in proportion, [1, RLVC_FEWEST_EFFORT_MAX] */
 } rlvc_fewest_task;
 
 /* A split of leaf `leaf`: rows without the feature stay in it, those with it get the next new leaf. */
@@ -45,14 +44,13 @@ typedef struct rlvc_fewest_split {
     uint32_t feature;
 } rlvc_fewest_split;
 
+/* The tree. It begins as leaf 0, and its splits are to be made in their order. */
 typedef struct rlvc_fewest_tree {
-    const rlvc_fewest_split
-        *split; /* [leaves - 1]: split j makes leaf j + 1; leaf 0 is there from the first */
-    const uint8_t *action; /* [leaves] the lowest that all its rows allow */
+    const rlvc_fewest_split *split; /* [leaves - 1] split j makes leaf j + 1 */
+    const uint8_t *action;          /* [leaves] the lowest that all its rows allow */
     uint32_t leaves;
-    uint8_t
-        exact; /* 1: no tree has fewer; 0: the table or the effort did not suffice for all of the rows,
-                      so that those were parted greedily until it did */
+    uint8_t exact; /* 1: no tree has fewer; 0: the table or the effort did not suffice for all of
+                      the rows, so that those were parted greedily until it did */
     uint8_t reserved[3];
 } rlvc_fewest_tree;
 
