@@ -48,8 +48,7 @@ typedef struct frame {
     uint32_t begin, end; /* the stretch */
     uint32_t middle;     /* its rows with the feature under trial stand from here on */
     uint32_t slot;       /* its place in the table */
-    uint32_t limit;      /* a tree of more leaves is of no use */
-    uint32_t best;       /* leaves of the best tree so far; limit + 1 at first */
+    uint32_t best;       /* leaves of the best tree so far; at first one more than are of use */
     uint32_t root;       /* the feature at its root, or NONE */
     uint32_t bound;      /* the least sum of both sides' bounds among the features passed */
     uint32_t feature;    /* under trial */
@@ -228,7 +227,6 @@ static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, ui
                          .end = end,
                          .middle = begin,
                          .slot = seen->slot,
-                         .limit = limit,
                          .best = limit + 1u,
                          .root = NONE,
                          .bound = NONE};
