@@ -108,8 +108,7 @@ static inline int32_t between_bytes(const int8_t *a, const int16_t *b, uint32_t 
 /* The vector of a feature in the form that distances are taken in. */
 typedef struct probe {
     const float *number;
-    int16_t
-        wide[RLVC_DESCRIPTORS_DIMENSIONS_MAX]; /* of int8 vectors: less work for each distance */
+    int16_t wide[RLVC_DESCRIPTORS_DIMENSIONS_MAX]; /* of int8 vectors: distances take less work */
 } probe;
 
 static void open_probe(const rlvc_descriptors *d, const void *feature, probe *made) {

@@ -44,8 +44,7 @@ typedef struct rlvc_shim_log {
     size_t count;
     uint32_t bytes;
     uint32_t actions;
-    uint32_t
-        resume; /* 1: the first goes on from the agent's current percept; 0: it begins an episode */
+    uint32_t resume; /* 1: the first goes on from the agent's percept; 0: it begins an episode */
 } rlvc_shim_log;
 
 /* rlvc_begin and rlvc_act for each percept, that of each environment of a vector: fills log->choices.

@@ -57,9 +57,8 @@ RLVC_API rlvc_status rlvc_log_observe(rlvc_log_writer *writer, rlvc_choice choic
 #define RLVC_LOG_OBSERVE 3u /* an interaction of the current percept: rlvc_observe */
 
 typedef struct rlvc_log_record {
-    const void
-        *percept; /* the first, or s'; null if there is none. In the reader's buffer, not aligned,
-                            until the next call */
+    const void *percept; /* the first, or s'; null if there is none. In the reader's buffer, not
+                            aligned, until the next call */
     float reward;
     rlvc_choice choice;
     uint8_t end;

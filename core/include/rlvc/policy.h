@@ -23,23 +23,23 @@ typedef struct rlvc_policy rlvc_policy;
 
 /* How to look for it. Start from rlvc_policy_default. */
 typedef struct rlvc_policy_config {
-    float
-        tolerance; /* at a percept an action is as good as the agent's if it was tried and its Q in the
-                          percept's class is no more than this below that of the agent's, in units of return,
-                          [0, RLVC_REWARD_MAX]. The policy is then worth at most tolerance / (1 -
-                          discount) less than the agent's, by the agent's Q. 0: just the agent's action.
-                          Default twice the tolerance of the agent's config, which its solver cannot tell
-                          from nothing */
-    uint32_t
-        percepts; /* distinct ones that there is room for, [1, RLVC_FEWEST_ROWS_MAX]. Two are distinct if
-                          one exhibits a feature of the tree that the other does not. Default the number of
-                          percepts that the ring can hold, 16384 at most */
-    uint32_t
-        entries; /* of the table, [2, RLVC_FEWEST_ENTRIES_MAX]. Default 65536: for up to 64 features
-                          that takes 1.5 MiB */
+    /* At a percept an action is as good as the agent's if it was tried and its Q in the percept's
+     * class is no more than this below that of the agent's, in units of return, [0, RLVC_REWARD_MAX].
+     * The policy is then worth at most tolerance / (1 - discount) less than the agent's, by the
+     * agent's Q. 0: just the agent's action. Default twice the tolerance of the agent's config, which
+     * its solver cannot tell from nothing. */
+    float tolerance;
+
+    /* Distinct ones that there is room for, [1, RLVC_FEWEST_ROWS_MAX]. Two are distinct if one exhibits
+     * a feature of the tree that the other does not. Default the number of percepts that the ring can
+     * hold, 16384 at most. */
+    uint32_t percepts;
+
+    uint32_t entries;  /* of the table, [2, RLVC_FEWEST_ENTRIES_MAX]. Default 65536: for up to 64
+                          features that takes 1.5 MiB */
     uint32_t reserved; /* 0 */
-    uint64_t effort; /* [1, RLVC_FEWEST_EFFORT_MAX]. Default 2^26, some seconds of a workstation at
-                          worst */
+    uint64_t effort;   /* [1, RLVC_FEWEST_EFFORT_MAX]. Default 2^26, some seconds of a workstation
+                          at worst */
 } rlvc_policy_config;
 
 /* Fills *config with the defaults for an agent. O(1).
@@ -55,22 +55,24 @@ RLVC_API rlvc_status rlvc_policy_size(const rlvc_agent *agent, const rlvc_policy
 
 /* What became of the tree. */
 typedef struct rlvc_policy_info {
-    uint32_t classes; /* leaves of the agent's tree */
-    uint32_t
-        collapsed; /* left, once every subtree whose leaves all act alike has become one: changes no
-                           action, at no percept whatever */
-    uint32_t leaves;   /* of the policy */
-    uint32_t percepts; /* distinct ones in the ring that it was made for */
-    uint32_t features; /* distinct ones that the agent's tree tests */
-    uint32_t bytes;    /* of the block that the policy still needs, from its beginning on */
-    uint8_t
-        exact; /* 1: no tree over these features has fewer leaves and does what is allowed at each
-                           percept of the ring; 0: table or effort did not suffice to know it */
-    uint8_t
-        as_agent; /* 1: the agent's action at every percept whatever, as nothing smaller was found than
-                           the collapsed tree, or there was no room for the percepts, or the agent has more
-                           than RLVC_FEWEST_ACTIONS_MAX actions. 0: at a percept unlike all of the ring's
-                           it does what is done at the percepts of the leaf that it comes to */
+    uint32_t classes;   /* leaves of the agent's tree */
+    uint32_t collapsed; /* left, once every subtree whose leaves all act alike has become one: no
+                           action changes, at no percept whatever */
+    uint32_t leaves;    /* of the policy */
+    uint32_t percepts;  /* distinct ones in the ring that it was made for */
+    uint32_t features;  /* distinct ones that the agent's tree tests */
+    uint32_t bytes;     /* of the block that the policy still needs, from its beginning on */
+
+    /* 1: no tree over these features has fewer leaves and does what is allowed at each percept of the
+     * ring; 0: table or effort did not suffice to know it. */
+    uint8_t exact;
+
+    /* 1: the agent's action at every percept whatever, as nothing smaller was found than the collapsed
+     * tree, or there was no room for the percepts, or the agent has more than RLVC_FEWEST_ACTIONS_MAX
+     * actions. 0: at a percept unlike all of the ring's it does what is done at the percepts of the
+     * leaf that it comes to. */
+    uint8_t as_agent;
+
     uint8_t reserved[2];
 } rlvc_policy_info;
 

@@ -26,10 +26,11 @@ extern "C" {
  * returns 0, or anything else to fail. */
 typedef struct rlvc_store {
     void *ctx; /* handed to every callback, untouched */
-    uint32_t
-        slot_bytes; /* of one slot, rlvc_snapshot_size or more, a multiple of RLVC_STORE_UNIT, and of
-                            the pages that erase() erases; at most RLVC_SLOT_BYTES_MAX. The slots lie at
-                            [0, slot_bytes) and [slot_bytes, 2 * slot_bytes) */
+
+    /* Of one slot, rlvc_snapshot_size or more, a multiple of RLVC_STORE_UNIT, and of the pages that
+     * erase() erases; at most RLVC_SLOT_BYTES_MAX. The slots lie at [0, slot_bytes) and
+     * [slot_bytes, 2 * slot_bytes). */
+    uint32_t slot_bytes;
 
     /* Required. What was never written may read as anything, but reading it must not fail. */
     int (*read)(void *ctx, uint32_t offset, void *buffer, uint32_t bytes);

@@ -27,14 +27,18 @@ extern "C" {
  * RLVC_E_CALLBACK for as long as the ring holds that percept. */
 typedef struct rlvc_thresholds {
     uint32_t components; /* D, [1, RLVC_THRESHOLDS_COMPONENTS_MAX] */
-    uint32_t cutpoints; /* B: at most so many cutpoints for each component (and each direction of an
-                            oblique test), just above the quantiles 0, 1 / B, ..., (B - 1) / B of the
-                            class's own values; [1, RLVC_THRESHOLDS_CUTPOINTS_MAX]. 0: exact, every
-                            midpoint between neighbouring values. Default 15 */
-    uint8_t
-        oblique; /* 1: also tests x[i] + w x[j] > c of each pair i < j, where w is s_i / s_j times
-                            1/2, 1 or 2, of either sign, and s the distance of a component's quartiles in
-                            the class; at most RLVC_THRESHOLDS_OBLIQUE_MAX components. Default 0 */
+
+    /* B: at most so many cutpoints for each component (and each direction of an oblique test), just
+     * above the quantiles 0, 1 / B, ..., (B - 1) / B of the class's own values;
+     * [1, RLVC_THRESHOLDS_CUTPOINTS_MAX]. 0: exact, every midpoint between neighbouring values.
+     * Default 15. */
+    uint32_t cutpoints;
+
+    /* 1: also tests x[i] + w x[j] > c of each pair i < j, where w is s_i / s_j times 1/2, 1 or 2, of
+     * either sign, and s the distance of a component's quartiles in the class; at most
+     * RLVC_THRESHOLDS_OBLIQUE_MAX components. Default 0. */
+    uint8_t oblique;
+
     uint8_t reserved[3]; /* 0 */
 } rlvc_thresholds;
 
