@@ -5,6 +5,7 @@ RLVC_COIL100 names a folder of COIL-100 photographs for the tests that want them
 
 import json
 import os
+import re
 import subprocess
 
 import numpy
@@ -15,9 +16,9 @@ CAMERA = os.environ.get("RLVC_CAMERA")
 COIL100 = os.environ.get("RLVC_COIL100")
 
 
-def run(*arguments, program=PROGRAM):
+def run(*arguments, program=PROGRAM, cwd=None):
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True,
-                          errors="replace", timeout=500)
+                          errors="replace", timeout=500, cwd=cwd)
 
 
 def tiled(*arguments):
@@ -190,15 +191,42 @@ def test_bad_pictures(tmp_path, folder, how):
     assert [file.name for file in tmp_path.iterdir() if "report" in file.name] == ["report.json"]
 
 
-@pytest.mark.parametrize("arguments", [("--poses", "0,x"), ("--poses", ""), ("--jpeg", "0"),
-                                       ("--descriptor", "eyes"), ("--criterion", "hope"),
-                                       ("--maze", "nowhere"), ("--metric", "nowhere"),
-                                       ("--steps", "30", "--interactions", "20"), ("--huh",)])
-def test_bad_options(arguments):
-    result = tiled("--interactions", "10", *arguments) if "--steps" not in arguments \
-        else tiled(*arguments)
+@pytest.mark.parametrize("arguments, parts", [
+    (["--poses", "0,x"], ["--poses: 'x'", "from -359 to 359"]),
+    (["--poses", ""], ["--poses: ''"]),
+    (["--test-poses", "10,360"], ["--test-poses: '360'"]),
+    (["--jpeg", "0"], ["--jpeg: '0'", "from 1 to 100"]),
+    (["--seed", "-1"], ["--seed: '-1'"]),
+    (["--runs", "1e3"], ["--runs: '1e3'"]),
+    (["--light", "1"], ["--light: '1'", "[0, 0.99]"]),
+    (["--gamma", "nan"], ["--gamma: 'nan'", "[0, 0.999]"]),
+    (["--noise", "3", "--noise", "4"], ["--noise: takes one value, once"]),
+    (["--raw-light=yes"], ["--raw-light: takes no value"]),
+    (["--descriptor", "eyes"], ["--descriptor: 'eyes'", "sift-upright"]),
+    (["--criterion", "hope"], ["--criterion: 'hope'", "residual"]),
+    (["--maze", "nowhere"], ["--maze: ", "'nowhere'", "No such file"]),
+    (["--images", ""], ["--images: ", "empty"]),
+    (["--metric", "nowhere", "--maze", "small"], ["--metric: ", "nowhere", "No such file"]),
+    (["--save-metric", "absent/m", "--maze", "small"], ["--save-metric: ", "absent/m"]),
+    (["--json", "same", "--dot", "same"], ["--dot: 'same'", "--json"]),
+    (["--steps", "30", "--interactions", "20"], ["--steps: ", "20 interactions"]),
+    (["--huh"], ["--huh: not expected"]),
+    (["more"], ["more: not expected"]),
+])
+def test_bad_options(tmp_path, arguments, parts):
+    result = run("tiled", *arguments, cwd=tmp_path)
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 1
+    for part in parts:
+        assert part in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_help_names_options_as_they_are_typed():
+    options = [line.split()[0] for line in tiled("--help").stdout.splitlines()
+               if line.startswith("  -")]
+    assert "--raw-light" in options
+    assert all(re.fullmatch(r"(-h,)?--[a-z-]+", option) for option in options)
 
 
 def test_one_pixel(tmp_path):

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // run_gridworld: learns a maze from rewards alone, by the public interface of the library.
 //
-//     options      what the user asked for          maze_file    the maze
-//     optimum      what would be best               learner      one run: interactions and learning
+//     options      what the user asked for          arguments    how what was typed is checked
+//     maze_file    the maze                         optimum      what would be best
+//     learner      one run: interactions and learning
 //     policy       what the tree does in each cell, compared with the optimum
 //     compaction   the policy made small, and the smallest that an optimal one could be
 //     picture, summary, screen                      what is shown

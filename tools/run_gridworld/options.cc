@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include "arguments.h"
 #include "failure.h"
 
 #include "rlvc/rlvc.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <iostream>
-#include <utility>
 
 namespace {
 
@@ -75,52 +70,6 @@ Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
     return large;
 }
 
-// Validators look at the text, before it is converted: "-1", "1e3" and "nan" must not slip through.
-CLI::Validator whole(uint64_t low, uint64_t high) {
-    return CLI::Validator(
-        [low, high](std::string &text) {
-            char *end = nullptr;
-            errno = 0;
-            const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-            const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
-            if (!text.empty() && digits && errno == 0 && value >= low && value <= high) {
-                return std::string();
-            }
-            return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " +
-                   std::to_string(high);
-        },
-        "");
-}
-
-enum class Ends { closed, open_below, open_above };
-
-// A number from 0 to 1, with or without its ends, also once it is a binary32.
-CLI::Validator fraction(Ends ends) {
-    return CLI::Validator(
-        [ends](std::string &text) {
-            char *end = nullptr;
-            const float value = std::strtof(text.c_str(), &end);
-            const bool number = end != text.c_str() && *end == '\0';
-            const bool above = ends == Ends::open_below ? value > 0.0f : value >= 0.0f;
-            const bool below = ends == Ends::open_above ? value < 1.0f : value <= 1.0f;
-            if (number && above && below) {
-                return std::string();
-            }
-            return "'" + text + "' is not a number in " + (ends == Ends::open_below ? "(" : "[") +
-                   "0, 1" + (ends == Ends::open_above ? ")" : "]");
-        },
-        "");
-}
-
-CLI::Validator file_name() {
-    return CLI::Validator(
-        [](std::string &text) {
-            return text.empty() ? std::string("a file's name is wanted, and this is empty")
-                                : std::string();
-        },
-        "");
-}
-
 void add_learner(CLI::App &binary, Options &options) {
     binary
         .add_option_function<std::string>(
@@ -132,21 +81,7 @@ void add_learner(CLI::App &binary, Options &options) {
 }
 
 void add_learning(CLI::App &binary, Options &options) {
-    const std::map<std::string, uint8_t> criteria{{"returns", RLVC_CRITERION_RETURNS},
-                                                  {"residual", RLVC_CRITERION_RESIDUAL}};
-    options.criterion = RLVC_CRITERION_RESIDUAL;
-    binary
-        .add_option_function<std::string>(
-            "--criterion",
-            [&options, criteria](const std::string &name) {
-                options.criterion = criteria.at(name);
-            },
-            "which classes are aliased: returns, as published, or residual (default)")
-        ->check([criteria](const std::string &text) {
-            return criteria.count(text) ? std::string()
-                                        : "'" + text + "' is neither returns nor residual";
-        })
-        ->type_name("NAME");
+    add_criterion(binary, options.criterion);
     binary
         .add_option("--interactions", options.interactions,
                     "returns: fresh ones for each step; residual: those of the whole run")
@@ -159,20 +94,20 @@ void add_learning(CLI::App &binary, Options &options) {
         ->check(whole(1, 1000000));
     binary.add_option("--gamma", options.gamma, "discount of future rewards (0.9)")
         ->type_name("P")
-        ->check(fraction(Ends::open_above));
+        ->check(number(0, 1, Ends::open_above));
     binary.add_option("--epsilon", options.epsilon, "probability of exploring")
         ->type_name("P")
-        ->check(fraction(Ends::closed));
+        ->check(number(0, 1));
     binary
         .add_option("--alpha", options.alpha,
                     "a split is kept if its corrected p-value is below this ...")
         ->type_name("P")
-        ->check(fraction(Ends::open_below));
+        ->check(number(0, 1, Ends::open_below));
     binary
         .add_option("--alpha-known", options.alpha_known,
                     "... or below this, if the tree tests its bit elsewhere")
         ->type_name("P")
-        ->check(fraction(Ends::open_below));
+        ->check(number(0, 1, Ends::open_below));
     binary
         .add_option_function<std::string>(
             "--successors",
@@ -180,7 +115,7 @@ void add_learning(CLI::App &binary, Options &options) {
             "yes or no: split a class, too, if what follows the same action differs (residual "
             "criterion)")
         ->type_name("ANSWER")
-        ->check(CLI::IsMember({"yes", "no"}));
+        ->check(one_of({"yes", "no"}));
     binary
         .add_option("--classes", options.classes,
                     "classes the tree may grow to (4 for 3 cells, at least 64)")
@@ -200,7 +135,7 @@ void add_world(CLI::App &binary, Options &options) {
         ->check(file_name());
     binary.add_option("--slip", options.slip, "probability that a move goes astray (0)")
         ->type_name("P")
-        ->check(fraction(Ends::closed));
+        ->check(number(0, 1));
     binary.add_option("--distractors", options.distractors, "random bits in each percept (11)")
         ->type_name("N")
         ->check(whole(0, GRIDWORLD_BITS_MAX));
@@ -229,25 +164,21 @@ void add_files(CLI::App &binary, Options &options) {
 }
 
 void check_combination(const Options &options) {
-    const std::pair<const char *, std::string> files[] = {
-        {"--json", options.json}, {"--dot", options.dot}, {"--export-c", options.export_c}};
-    for (const auto &file : files) {
-        const std::string name = file.first;
-        if (file.second.empty()) {
+    const std::vector<NamedFile> trees{{"--dot", options.dot}, {"--export-c", options.export_c}};
+    for (const NamedFile &tree : trees) {
+        if (tree.file.empty()) {
             continue;
         }
-        if (name != "--json" && is_comparison(options)) {
-            throw Failure(name + ": writes one tree of the library's: name one of its solvers with --learner");
+        if (is_comparison(options)) {
+            throw Failure(tree.option + ": writes one tree of the library's: name one of its "
+                                        "solvers with --learner");
         }
-        if (name != "--json" && options.runs > 0) {
-            throw Failure(name + ": writes one tree, and --runs makes several: leave one of them out");
-        }
-        for (const auto *other = files; other->first != file.first; other++) {
-            if (other->second == file.second) {
-                throw Failure(name + ": '" + file.second + "' is the file of " + other->first + " too");
-            }
+        if (options.runs > 0) {
+            throw Failure(tree.option +
+                          ": writes one tree, and --runs makes several: leave one of them out");
         }
     }
+    check_files_differ({{"--json", options.json}, trees[0], trees[1]});
 }
 
 } // namespace
@@ -272,18 +203,13 @@ bool read_options(int argc, char **argv, Options &options) {
     add_files(binary, options);
     binary.footer(defaults_table);
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success &asked) {
-        app.exit(asked);
-        return false;
+        if (!parse(app, argc, argv)) {
+            return false;
+        }
     } catch (const CLI::RequiredError &) {
-        throw Failure(argc > 1 ? std::string(argv[1]) + ": not a subcommand; there are 'binary' and 'tiled'"
+        throw Failure(argc > 1 ? std::string(argv[1]) +
+                                     ": not a subcommand; there are 'binary' and 'tiled'"
                                : "a subcommand is wanted: 'binary' or 'tiled' (see --help)");
-    } catch (const CLI::ArgumentMismatch &error) {
-        const std::string what = error.what();
-        throw Failure(what.substr(0, what.find(':')) + ": takes one value, once");
-    } catch (const CLI::ParseError &error) {
-        throw Failure(error.what());
     }
     if (options.learners.empty()) {
         options.learners = {learner_types().front()};

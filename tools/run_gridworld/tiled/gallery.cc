@@ -9,9 +9,12 @@
 
 namespace {
 
-void check_vision(rlvc_vision_status status, const rlvc_vision_error &error) {
+// `where` is the option whose value may be at fault, or nothing.
+void check_vision(rlvc_vision_status status, const rlvc_vision_error &error,
+                  const std::string &where = "") {
     if (status != RLVC_VISION_OK) {
-        throw Failure(error.text[0] != '\0' ? error.text : rlvc_vision_status_text(status));
+        throw Failure(where +
+                      (error.text[0] != '\0' ? error.text : rlvc_vision_status_text(status)));
     }
 }
 
@@ -96,7 +99,8 @@ void Gallery::prepare(const TiledOptions &options) {
     rlvc_vision_error error{};
     rlvc_metric *metric = nullptr;
     if (!options.metric.empty()) {
-        check_vision(rlvc_metric_load(options.metric.c_str(), &metric, &error), error);
+        check_vision(rlvc_metric_load(options.metric.c_str(), &metric, &error), error,
+                     "--metric: ");
         metric_.reset(metric);
     } else {
         rlvc_fitter *made = nullptr;
@@ -109,10 +113,12 @@ void Gallery::prepare(const TiledOptions &options) {
         metric_.reset(metric);
     }
     if (!options.save_metric.empty()) {
-        check_vision(rlvc_metric_save(metric_.get(), options.save_metric.c_str(), &error), error);
+        check_vision(rlvc_metric_save(metric_.get(), options.save_metric.c_str(), &error), error,
+                     "--save-metric: ");
     }
     rlvc_extractor *extractor = nullptr;
-    check_vision(rlvc_extractor_create(&config_, metric_.get(), &extractor, &error), error);
+    check_vision(rlvc_extractor_create(&config_, metric_.get(), &extractor, &error), error,
+                 options.metric.empty() ? "" : "--metric: ");
     extractor_.reset(extractor);
     tau_ = rlvc_metric_tau(metric_.get());
     const float radius = tau_ / rlvc_extractor_step(extractor);

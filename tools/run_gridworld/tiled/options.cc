@@ -1,20 +1,39 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include "../arguments.h"
 #include "../failure.h"
 
 #include "rlvc/rlvc.h"
 #include "rlvc/vision.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
+#include <sstream>
 
 namespace {
 
 constexpr float sift_sigma = 6.0f; // a wide window: it loses poses less than it tells objects apart
 
-int angle_of(const std::string &text) {
+// Adds an option for a number, a whole number or a file. Its range stands in the help.
+void add(CLI::App &app, const std::string &name, float &into, float low, float high,
+         const char *text) {
+    std::ostringstream range;
+    range << low << ".." << high;
+    app.add_option(name, into, text)->type_name(range.str())->check(number(low, high));
+}
+
+void add(CLI::App &app, const std::string &name, uint32_t &into, uint32_t low, uint32_t high,
+         const char *text) {
+    app.add_option(name, into, text)
+        ->type_name(std::to_string(low) + ".." + std::to_string(high))
+        ->check(whole(low, high));
+}
+
+void add(CLI::App &app, const std::string &name, std::string &into, const char *text) {
+    app.add_option(name, into, text)->type_name("FILE")->check(file_name());
+}
+
+int angle_of(const std::string &option, const std::string &text) {
     std::size_t end = 0;
     long angle = 0;
     try {
@@ -23,44 +42,45 @@ int angle_of(const std::string &text) {
         end = 0;
     }
     if (end == 0 || end != text.size() || angle < -359 || angle > 359) {
-        throw Failure("'" + text + "' is not an angle in whole degrees from -359 to 359");
+        throw Failure(option + ": '" + text +
+                      "' is not an angle in whole degrees from -359 to 359");
     }
     return static_cast<int>((angle + 360) % 360);
 }
 
+void add_angles(CLI::App &app, const std::string &name, std::vector<int> &into, const char *text) {
+    app.add_option_function<std::string>(
+           name,
+           [name, &into](const std::string &list) {
+               into.clear();
+               std::size_t from = 0;
+               while (from <= list.size()) {
+                   const std::size_t to = std::min(list.find(',', from), list.size());
+                   into.push_back(angle_of(name, list.substr(from, to - from)));
+                   from = to + 1;
+               }
+           },
+           text)
+        ->type_name("A,B,...");
+}
+
 void add_world(CLI::App &app, TiledOptions &options) {
-    const auto angles = [](std::vector<int> &into) {
-        return [&into](const std::string &list) {
-            into.clear();
-            std::size_t from = 0;
-            while (from <= list.size()) {
-                const std::size_t to = std::min(list.find(',', from), list.size());
-                into.push_back(angle_of(list.substr(from, to - from)));
-                from = to + 1;
-            }
-        };
-    };
     app.add_option("--images", options.images,
                    "pictures objN__ANGLE.* as of COIL-100; any others: a file an object (built-in "
                    "objects)")
-        ->type_name("DIR");
-    app.add_option("--maze", options.maze, "small (10 cells), sutton (46), or a file (sutton)");
-    app.add_option_function<std::string>("--poses", angles(options.poses),
-                                         "degrees from which objects are seen: 0,20,-20 (0)")
-        ->type_name("A,B,...");
-    app.add_option_function<std::string>("--test-poses", angles(options.test_poses),
-                                         "degrees held out (those of --poses, in other light)")
-        ->type_name("A,B,...");
-    app.add_option("--light", options.light, "light varies by +- this share (0)")
-        ->check(CLI::Range(0.0, 0.99));
-    app.add_option("--noise", options.noise, "standard deviation in grey levels (0)")
-        ->check(CLI::Range(0.0, 255.0));
-    app.add_option("--blur", options.blur, "standard deviation in pixels (0)")
-        ->check(CLI::Range(0.0, 100.0));
-    app.add_option("--jpeg", options.jpeg, "compress at this quality, 1 to 100 (not)")
-        ->check(CLI::Range(1, 100));
-    app.add_option("--copies", options.copies, "pictures of each view, if they differ (8)")
-        ->check(CLI::Range(1, 1000));
+        ->type_name("DIR")
+        ->check(file_name());
+    app.add_option("--maze", options.maze, "small (10 cells), sutton (46), or a file (sutton)")
+        ->type_name("MAZE")
+        ->check(file_name());
+    add_angles(app, "--poses", options.poses, "degrees from which objects are seen: 0,20,-20 (0)");
+    add_angles(app, "--test-poses", options.test_poses,
+               "degrees held out (those of --poses, in other light)");
+    add(app, "--light", options.light, 0, 0.99f, "light varies by +- this share (0)");
+    add(app, "--noise", options.noise, 0, 255, "standard deviation in grey levels (0)");
+    add(app, "--blur", options.blur, 0, 100, "standard deviation in pixels (0)");
+    add(app, "--jpeg", options.jpeg, 1, 100, "compress at this quality (not)");
+    add(app, "--copies", options.copies, 1, 1000, "pictures of each view, if they differ (8)");
 }
 
 void add_seeing(CLI::App &app, TiledOptions &options) {
@@ -68,68 +88,42 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
     app.add_option_function<std::string>(
            "--descriptor",
            [&options](const std::string &name) {
-               if (rlvc_descriptor_named(name.c_str(), &options.descriptor) != RLVC_VISION_OK) {
-                   throw Failure("--descriptor: '" + name +
-                                 "' is none of invariants, sqrt-invariants, sift-upright, sift, "
-                                 "orb");
-               }
+               rlvc_descriptor_named(name.c_str(), &options.descriptor);
            },
            "invariants, sqrt-invariants, sift-upright, sift or orb (sift-upright)")
-        ->type_name("NAME");
-    app.add_option("--points", options.points, "points of a picture, at most (30)")
-        ->check(CLI::Range(1u, RLVC_POINTS_MAX));
-    app.add_option("--sigma", options.sigma, "scale of the vectors in pixels (by descriptor)")
-        ->check(CLI::Range(0.5, 8.0));
-    app.add_option("--axes", options.axes,
-                   "discriminant axes of SIFT, where views or light differ; 0: SIFT as it is (16)")
-        ->check(CLI::Range(0, 128));
-    app.add_option("--share", options.share,
-                   "of the other objects' pictures that have a feature at tau (0.035)")
-        ->check(CLI::Range(0.001, 0.999));
-    app.add_option("--margin", options.margin, "of the margin rule; 1: a fixed tau (1.8)")
-        ->check(CLI::Range(1.0, 16.0));
-    app.add_option("--candidates", options.candidates, "features looked at for a class (64)")
-        ->check(CLI::Range(1, 65535));
-    app.add_flag("!--raw-light", options.normalise, "leave the light of pictures as it is");
-    app.add_option("--metric", options.metric, "use this metric instead of fitting one")
-        ->type_name("FILE");
-    app.add_option("--save-metric", options.save_metric, "keep the metric")->type_name("FILE");
+        ->type_name("NAME")
+        ->check(one_of({"invariants", "sqrt-invariants", "sift-upright", "sift", "orb"}));
+    add(app, "--points", options.points, 1, RLVC_POINTS_MAX, "points of a picture, at most (30)");
+    add(app, "--sigma", options.sigma, 0.5f, 8, "scale of the vectors in pixels (by descriptor)");
+    add(app, "--axes", options.axes, 0, 128,
+        "discriminant axes of SIFT, where views or light differ; 0: SIFT as it is (16)");
+    add(app, "--share", options.share, 0.001f, 0.999f,
+        "of the other objects' pictures that have a feature at tau (0.035)");
+    add(app, "--margin", options.margin, 1, 16, "of the margin rule; 1: a fixed tau (1.8)");
+    add(app, "--candidates", options.candidates, 1, 65535, "features looked at for a class (64)");
+    app.add_flag_callback(
+           "--raw-light", [&options] { options.normalise = false; },
+           "leave the light of pictures as it is")
+        ->disable_flag_override();
+    add(app, "--metric", options.metric, "use this metric instead of fitting one");
+    add(app, "--save-metric", options.save_metric, "keep the metric");
 }
 
 void add_learning(CLI::App &app, TiledOptions &options) {
-    options.criterion = RLVC_CRITERION_RESIDUAL;
-    app.add_option_function<std::string>(
-           "--criterion",
-           [&options](const std::string &name) {
-               if (name != "returns" && name != "residual") {
-                   throw Failure("--criterion: '" + name + "' is neither returns nor residual");
-               }
-               options.criterion =
-                   name == "returns" ? RLVC_CRITERION_RETURNS : RLVC_CRITERION_RESIDUAL;
-           },
-           "which classes are aliased: returns, as published, or residual (default)")
-        ->type_name("NAME");
-    app.add_option("--interactions", options.interactions,
-                   "returns: of each step (2000); residual: of the run (4500)")
-        ->check(CLI::Range(1, 1000000));
-    app.add_option("--steps", options.steps, "learning steps (returns: 20; residual: 2)")
-        ->check(CLI::Range(1, 10000));
-    app.add_option("--gamma", options.gamma, "discount of future rewards (0.9)")
-        ->check(CLI::Range(0.0, 0.999));
-    app.add_option("--epsilon", options.epsilon, "probability of exploring (returns: 0.8, else 1)")
-        ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--alpha", options.alpha, "a split's corrected p-value is below this (0.005)")
-        ->check(CLI::Range(1e-30, 1.0));
-    app.add_option("--classes", options.classes, "classes the tree may grow to (four a cell)")
-        ->check(CLI::Range(1, 65535));
-    app.add_option("--seed", options.seed, "of everything random (1)");
-    app.add_option("--runs", options.runs, "runs with the seeds from --seed on (1)")
-        ->check(CLI::Range(1, 100000));
-    app.add_option("--json", options.json, "write a report")->type_name("FILE");
-    app.add_option("--dot", options.dot, "write the first run's tree for Graphviz")
-        ->type_name("FILE");
-    app.add_option("--snapshot", options.snapshot, "write the first run's agent")
-        ->type_name("FILE");
+    add_criterion(app, options.criterion);
+    add(app, "--interactions", options.interactions, 1, 1000000,
+        "returns: of each step (2000); residual: of the run (4500)");
+    add(app, "--steps", options.steps, 1, 10000, "learning steps (returns: 20; residual: 2)");
+    add(app, "--gamma", options.gamma, 0, 0.999f, "discount of future rewards (0.9)");
+    add(app, "--epsilon", options.epsilon, 0, 1, "probability of exploring (returns: 0.8, else 1)");
+    add(app, "--alpha", options.alpha, 1e-30f, 1,
+        "a split's corrected p-value is below this (0.005)");
+    add(app, "--classes", options.classes, 1, 65535, "classes the tree may grow to (four a cell)");
+    add(app, "--seed", options.seed, 0, UINT32_MAX, "of everything random (1)");
+    add(app, "--runs", options.runs, 1, 100000, "runs with the seeds from --seed on (1)");
+    add(app, "--json", options.json, "write a report");
+    add(app, "--dot", options.dot, "write the first run's tree for Graphviz");
+    add(app, "--snapshot", options.snapshot, "write the first run's agent");
 }
 
 void settle(TiledOptions &options) {
@@ -141,7 +135,8 @@ void settle(TiledOptions &options) {
         options.steps = returns ? 20 : 2;
     }
     if (!returns && options.steps > options.interactions) {
-        throw Failure("--steps: at most one for each interaction");
+        throw Failure("--steps: at most one for each of the " +
+                      std::to_string(options.interactions) + " interactions");
     }
     if (options.epsilon < 0.0f) {
         options.epsilon = returns ? 0.8f : 1.0f;
@@ -164,14 +159,13 @@ bool read_tiled_options(int argc, char **argv, TiledOptions &options) {
     add_world(app, options);
     add_seeing(app, options);
     add_learning(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success &asked) {
-        app.exit(asked);
+    if (!parse(app, argc, argv)) {
         return false;
-    } catch (const CLI::ParseError &error) {
-        throw Failure(error.what());
     }
+    check_files_differ({{"--save-metric", options.save_metric},
+                        {"--json", options.json},
+                        {"--dot", options.dot},
+                        {"--snapshot", options.snapshot}});
     settle(options);
     return true;
 }
