@@ -120,6 +120,40 @@ def test_another_layout_is_refused():
         _lib.check_layout({**entries, "rlvc_config.more": 1}, _lib.PATH)
 
 
+KINDS = """
+#include "rlvc/rlvc.h"
+#include "rlvc/vision.h"
+#include "gridworld.h"
+#include "shim.h"
+#include <stdio.h>
+#define KIND(x) \\
+    _Generic((x), float: "float", uint8_t: "unsigned", uint16_t: "unsigned", uint32_t: "unsigned", \\
+             uint64_t: "unsigned", int32_t: "signed", int64_t: "signed", default: "other")
+#define SHOW(type, field) \\
+    printf("%s.%s %s %zu\\n", #type, #field, KIND(((type *)0)->field), sizeof ((type *)0)->field);
+"""
+
+
+def test_fields_are_of_the_types_of_c(tmp_path):
+    """Import compares sizes and offsets; a float for a number of 32 bits would have both."""
+    kinds = {"f": "float", **dict.fromkeys("BHIL", "unsigned"), **dict.fromkeys("il", "signed")}
+    fields = {
+        (name, field): (kinds.get(getattr(kind, "_type_", None), "other"), ctypes.sizeof(kind))
+        for name, struct in _lib.STRUCTS.items()
+        for field, kind in struct._fields_
+    }
+    lines = [KINDS, "int main(void) {", *(f"SHOW({name}, {f})" for name, f in fields), "}\n"]
+    (tmp_path / "kinds.c").write_text("\n".join(lines), encoding="utf-8")
+    folders = ["core/include", "vision/include", "examples/gridworld", "shim/native"]
+    include = [f"-I{ROOT / folder}" for folder in folders]
+    program = tmp_path / "kinds"
+    subprocess.run(["gcc", "-std=c11", *include, "-o", program, tmp_path / "kinds.c"], check=True)
+    said = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
+    names, kinds_of_c, sizes = said[::3], said[1::3], map(int, said[2::3])
+    in_c = dict(zip(names, zip(kinds_of_c, sizes, strict=True), strict=True))
+    assert in_c == {f"{name}.{field}": what for (name, field), what in fields.items()}
+
+
 @pytest.mark.parametrize("content", [None, b"no library"])
 def test_a_missing_or_foreign_library_is_said_to_be_so(tmp_path, content):
     path = tmp_path / "librlvc-python.so"
