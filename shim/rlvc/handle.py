@@ -53,7 +53,7 @@ _Self = TypeVar("_Self", bound="Handle")
 class Handle:
     """What C knows an agent by. The methods of an agent are in :class:`rlvc.Agent`."""
 
-    _print = "rlvc_print"
+    _print, _export = "rlvc_print", "rlvc_export_c"
 
     def _make(
         self,
@@ -165,11 +165,34 @@ class Handle:
         self._check(self._long(self._print, forms[form], self._writer(parts), None))
         return b"".join(parts).decode()
 
-    def _exported(self, function: str, name: str) -> str:
-        encoded = name.encode()
+    def export_c(self, name: str = "policy") -> str:
+        """Give the policy as a C99 header for a controller that only acts.
+
+        Parameters
+        ----------
+        name : str
+            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        RangeError
+            ``name`` is no such identifier.
+        ConfigError
+            The domain is none of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
+
+        Notes
+        -----
+        A percept of descriptors is the record that ``pack`` makes, aligned to 4: what
+        ``rlvc_extractor_extract`` fills on the controller; of thresholds it is an array of float.
+        Compile such a header with ``-ffp-contract=off``, and the action is the same as here for every
+        percept, bit for bit. Source: ``core/include/rlvc/export.h``.
+        """
         parts: list[bytes] = []
-        write = self._writer(parts)
-        self._check(self._long(function, encoded, write, None, None))
+        self._check(self._long(self._export, name.encode(), self._writer(parts), None, None))
         return b"".join(parts).decode()
 
     def _writer(self, parts: list[bytes]) -> Any:

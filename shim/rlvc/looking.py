@@ -169,34 +169,6 @@ class Looking(Handle):
             )
         return splits
 
-    def export_c(self, name: str = "policy") -> str:
-        """Give the learnt policy as a C99 header for a controller that only acts.
-
-        Parameters
-        ----------
-        name : str
-            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        RangeError
-            ``name`` is no such identifier.
-        ConfigError
-            The domain is none of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
-
-        Notes
-        -----
-        A percept of descriptors is the record that ``pack`` makes, aligned to 4: what
-        ``rlvc_extractor_extract`` fills on the controller; of thresholds it is an array of float.
-        Compile such a header with ``-ffp-contract=off``, and the action is the agent's for every
-        percept, bit for bit. Source: ``core/include/rlvc/export.h``.
-        """
-        return self._exported("rlvc_export_c", name)
-
     def check(self) -> None:
         """Check every invariant of the agent's memory, which ``core/SPEC.md`` lists.
 

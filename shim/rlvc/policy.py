@@ -81,7 +81,7 @@ class Policy(Handle):
     (1, 0)
     """
 
-    _print = "rlvc_policy_print"
+    _print, _export = "rlvc_policy_print", "rlvc_policy_export_c"
 
     def __init__(self, agent: Agent, **changes: Any) -> None:
         native, size = _lib.PolicyConfig(), ctypes.c_size_t()
@@ -146,27 +146,6 @@ class Policy(Handle):
         if status:
             self._fail(status, done.value)
         return actions
-
-    def export_c(self, name: str = "policy") -> str:
-        """Give the policy as a C99 header; see :meth:`rlvc.Agent.export_c`.
-
-        Parameters
-        ----------
-        name : str
-            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        RangeError
-            ``name`` is no such identifier.
-        ConfigError
-            The domain is none of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
-        """
-        return self._exported("rlvc_policy_export_c", name)
 
     def __repr__(self) -> str:
         """Say what it is."""
