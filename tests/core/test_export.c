@@ -46,26 +46,56 @@ static int count_writes(void *ctx, const char *text, size_t bytes) {
     return ++w->count == w->failing;
 }
 
+static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t actions, uint32_t capacity,
+                              uint32_t classes) {
+    rlvc_config config;
+    rlvc_agent *agent;
+    assert_int_equal(rlvc_config_default(&config, domain, actions), RLVC_OK);
+    config.capacity = capacity;
+    config.classes = classes;
+    assert_int_equal(rlvc_agent_init(&config, domain, &memory, sizeof memory, &agent), RLVC_OK);
+    return agent;
+}
+
+/* One decision is an episode: 1 for an action that is right, else 0. */
+static void decide(rlvc_agent *agent, const void *percept, uint32_t action, int right) {
+    const rlvc_choice choice = {(uint8_t)action, 0};
+    const float reward = right ? 1.0f : 0.0f;
+    assert_int_equal(rlvc_begin(agent, percept), RLVC_OK);
+    assert_int_equal(rlvc_observe(agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
+}
+
+static void learn(rlvc_agent *agent) {
+    rlvc_progress progress;
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+}
+
+/* Exports once, and then as often as there are writes, of which each fails once. */
+static rlvc_export_info fail_each_write(rlvc_agent *agent) {
+    writer all = {0, 0, NULL, RLVC_OK};
+    rlvc_export_info info;
+    assert_int_equal(rlvc_export_c(agent, "a", count_writes, &all, &info), RLVC_OK);
+    for (uint32_t n = 1; n <= all.count; n++) {
+        writer w = {0, n, NULL, RLVC_OK};
+        assert_int_equal(rlvc_export_c(agent, "a", count_writes, &w, NULL), RLVC_E_CALLBACK);
+        assert_int_equal(w.count, n);
+        assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
+    }
+    return info;
+}
+
 /* An agent that has learnt to do action 1 where both bits are 1, else action 0. */
 static rlvc_agent *make(uint32_t kind) {
     rlvc_domain domain;
-    rlvc_config config;
-    rlvc_agent *agent;
-    rlvc_progress progress;
     assert_int_equal(rlvc_bits_domain(BITS, &domain), RLVC_OK);
     domain.kind = kind;
-    assert_int_equal(rlvc_config_default(&config, &domain, 2), RLVC_OK);
-    config.capacity = 400;
-    config.classes = 8;
-    assert_int_equal(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &agent), RLVC_OK);
+    rlvc_agent *agent = make_agent(&domain, 2, 400, 8);
     for (uint32_t i = 0; i < 400; i++) {
-        unsigned char percept = (unsigned char)(i % 4u);
-        rlvc_choice choice = {(uint8_t)(i / 4u % 2u), 0};
-        float reward = choice.action == (percept == 3) ? 1.0f : 0.0f;
-        assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
-        assert_int_equal(rlvc_observe(agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
+        const unsigned char percept = (unsigned char)(i % 4u);
+        const uint32_t action = i / 4u % 2u;
+        decide(agent, &percept, action, action == (percept == 3));
     }
-    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    learn(agent);
     return agent;
 }
 
@@ -93,19 +123,10 @@ static void test_refusals(void **unused) {
 
 static void test_each_write_failing(void **unused) {
     (void)unused;
-    rlvc_agent *agent = make(RLVC_DOMAIN_BITS);
-    writer all = {0, 0, NULL, RLVC_OK};
-    rlvc_export_info info;
-    assert_int_equal(rlvc_export_c(agent, "a", count_writes, &all, &info), RLVC_OK);
+    const rlvc_export_info info = fail_each_write(make(RLVC_DOMAIN_BITS));
     assert_int_equal(info.leaves, 3);
     assert_int_equal(info.compact, 3);
     assert_int_equal(info.bytes, 4);
-    for (uint32_t n = 1; n <= all.count; n++) {
-        writer w = {0, n, NULL, RLVC_OK};
-        assert_int_equal(rlvc_export_c(agent, "a", count_writes, &w, NULL), RLVC_E_CALLBACK);
-        assert_int_equal(w.count, n);
-        assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
-    }
 }
 
 static void test_reentering(void **unused) {
@@ -149,27 +170,17 @@ static rlvc_agent *make_of_vectors(uint32_t form, uint32_t actions, uint32_t per
     static rlvc_descriptors descriptors;
     static const uint8_t wanted[8] = {0, 2, 1, 3, 0, 4, 1, 5};
     rlvc_domain domain;
-    rlvc_config config;
-    rlvc_agent *agent;
-    rlvc_progress progress;
     assert_int_equal(rlvc_descriptors_default(&descriptors, 3, DIMENSIONS, form, 0.5f), RLVC_OK);
     descriptors.margin = 1.0f;
     assert_int_equal(rlvc_descriptors_domain(&descriptors, &domain), RLVC_OK);
-    assert_int_equal(rlvc_config_default(&config, &domain, actions), RLVC_OK);
-    config.capacity = 1920;
-    config.classes = 16;
-    assert_int_equal(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &agent), RLVC_OK);
+    rlvc_agent *agent = make_agent(&domain, actions, 1920, 16);
     for (uint32_t i = 0; i < 1920; i++) {
         uint32_t percept[PERCEPT_BYTES / 4u];
-        const uint32_t set = i % percepts;
-        const rlvc_choice choice = {(uint8_t)(i / 8u % 6u), 0};
+        const uint32_t set = i % percepts, action = i / 8u % 6u;
         make_percept(set, form, percept);
-        assert_int_equal(rlvc_begin(agent, percept), RLVC_OK);
-        assert_int_equal(rlvc_observe(agent, choice, choice.action == wanted[set] ? 1.0f : 0.0f,
-                                      NULL, RLVC_TERMINATED),
-                         RLVC_OK);
+        decide(agent, percept, action, action == wanted[set]);
     }
-    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    learn(agent);
     return agent;
 }
 
@@ -226,14 +237,7 @@ static void test_vectors_that_do_not_matter(void **unused) {
 
 static void test_each_write_of_vectors_failing(void **unused) {
     (void)unused;
-    rlvc_agent *agent = make_of_vectors(RLVC_DESCRIPTORS_INT8, 6, 8);
-    writer all = {0, 0, NULL, RLVC_OK};
-    assert_int_equal(rlvc_export_c(agent, "a", count_writes, &all, NULL), RLVC_OK);
-    for (uint32_t n = 1; n <= all.count; n++) {
-        writer w = {0, n, NULL, RLVC_OK};
-        assert_int_equal(rlvc_export_c(agent, "a", count_writes, &w, NULL), RLVC_E_CALLBACK);
-        assert_int_equal(w.count, n);
-    }
+    (void)fail_each_write(make_of_vectors(RLVC_DESCRIPTORS_INT8, 6, 8));
 }
 
 /* ------------------------------------------------------------------ thresholds */
@@ -264,24 +268,15 @@ static rlvc_agent *make_of_numbers(int kind, uint32_t at, uint32_t actions) {
     static rlvc_thresholds thresholds;
     static float x[PLANE];
     rlvc_domain domain;
-    rlvc_config config;
-    rlvc_agent *agent;
-    rlvc_progress progress;
     assert_int_equal(rlvc_thresholds_default(&thresholds, at + 2u), RLVC_OK);
     thresholds.oblique = kind == DIAGONAL;
     assert_int_equal(rlvc_thresholds_domain(&thresholds, &domain), RLVC_OK);
-    assert_int_equal(rlvc_config_default(&config, &domain, actions), RLVC_OK);
-    config.capacity = NUMBERS;
-    config.classes = 16;
-    assert_int_equal(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &agent), RLVC_OK);
+    rlvc_agent *agent = make_agent(&domain, actions, NUMBERS, 16);
     for (uint32_t i = 0; i < NUMBERS; i++) {
-        const uint32_t wanted = put_numbers(kind, i, x + at);
-        const rlvc_choice choice = {(uint8_t)(i % 9u % actions), 0};
-        const float reward = kind == NOTHING || choice.action == wanted ? 1.0f : 0.0f;
-        assert_int_equal(rlvc_begin(agent, x), RLVC_OK);
-        assert_int_equal(rlvc_observe(agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
+        const uint32_t wanted = put_numbers(kind, i, x + at), action = i % 9u % actions;
+        decide(agent, x, action, kind == NOTHING || action == wanted);
     }
-    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    learn(agent);
     return agent;
 }
 
@@ -328,14 +323,7 @@ static void test_oblique_numbers(void **unused) {
 
 static void test_each_write_of_numbers_failing(void **unused) {
     (void)unused;
-    rlvc_agent *agent = make_of_numbers(DIAGONAL, 0, 3);
-    writer all = {0, 0, NULL, RLVC_OK};
-    assert_int_equal(rlvc_export_c(agent, "a", count_writes, &all, NULL), RLVC_OK);
-    for (uint32_t n = 1; n <= all.count; n++) {
-        writer w = {0, n, NULL, RLVC_OK};
-        assert_int_equal(rlvc_export_c(agent, "a", count_writes, &w, NULL), RLVC_E_CALLBACK);
-        assert_int_equal(w.count, n);
-    }
+    (void)fail_each_write(make_of_numbers(DIAGONAL, 0, 3));
 }
 
 int main(void) {

@@ -34,6 +34,26 @@ static void learn(rlvc_agent *agent) {
     while (!progress.done);
 }
 
+static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t capacity, float epsilon) {
+    rlvc_config config;
+    rlvc_agent *agent;
+    must(rlvc_config_default(&config, domain, 4), "config");
+    config.capacity = capacity;
+    config.classes = 400;
+    config.epsilon = epsilon;
+    must(rlvc_agent_init(&config, domain, &memory, sizeof memory, &agent), "init");
+    return agent;
+}
+
+/* One decision is an episode: 1 for the wanted action, else 0. */
+static void decide(rlvc_agent *agent, const void *percept, uint32_t wanted) {
+    rlvc_choice choice;
+    must(rlvc_begin(agent, percept), "begin");
+    must(rlvc_act(agent, &choice), "act");
+    const float reward = choice.action == wanted ? 1.0f : 0.0f;
+    must(rlvc_observe(agent, choice, reward, NULL, RLVC_TERMINATED), "observe");
+}
+
 static void learn_maze(rlvc_agent *agent) {
     gridworld world;
     unsigned char percept[BYTES_MAX];
@@ -69,22 +89,17 @@ static uint32_t wanted(const unsigned char *percept, uint32_t bits, uint32_t dep
     return (path * 2246822519u >> 13) % 4u;
 }
 
-/* One decision an episode: 1 for the wanted action, else 0. */
 static void learn_decisions(rlvc_agent *agent, uint32_t bits, uint32_t depth, uint32_t count) {
     gridworld_random random;
     unsigned char percept[BYTES_MAX];
     gridworld_random_seed(&random, 1);
     for (uint32_t i = 0; i < count; i++) {
-        rlvc_choice choice;
         /* A maze of one cell has no bits of its own: all are random. */
         static const unsigned char cell[1] = {GRIDWORLD_FREE};
         const gridworld_maze nowhere = {1, 1, 1, cell};
         uint32_t own = gridworld_bits(&nowhere, 0);
         gridworld_encode(&nowhere, bits - own, 0, &random, percept);
-        must(rlvc_begin(agent, percept), "begin");
-        must(rlvc_act(agent, &choice), "act");
-        float reward = choice.action == wanted(percept, bits, depth) ? 1.0f : 0.0f;
-        must(rlvc_observe(agent, choice, reward, NULL, RLVC_TERMINATED), "observe");
+        decide(agent, percept, wanted(percept, bits, depth));
     }
     learn(agent);
 }
@@ -145,26 +160,17 @@ static learnt learn_vectors(uint32_t form) {
     static rlvc_descriptors descriptors;
     learnt made = {NULL, 0, &descriptors};
     rlvc_domain domain;
-    rlvc_config config;
     uint64_t state = 1;
     must(rlvc_descriptors_default(&descriptors, POINTS, DIMENSIONS, form, 150.0f), "default");
     descriptors.candidates = 24;
     descriptors.draws = 2;
     must(rlvc_descriptors_domain(&descriptors, &domain), "domain");
-    must(rlvc_config_default(&config, &domain, 4), "config");
-    config.capacity = VECTORS_CAPACITY;
-    config.classes = 400;
-    config.epsilon = 1.0f;
-    must(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &made.agent), "init");
+    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f);
     for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
-        rlvc_choice choice;
         vectors percept;
         memset(&percept, 0, sizeof percept);
         draw_vectors(&state, form, &percept);
-        must(rlvc_begin(made.agent, &percept), "begin");
-        must(rlvc_act(made.agent, &choice), "act");
-        const float reward = choice.action == wanted_of_vectors(&percept, form) ? 1.0f : 0.0f;
-        must(rlvc_observe(made.agent, choice, reward, NULL, RLVC_TERMINATED), "observe");
+        decide(made.agent, &percept, wanted_of_vectors(&percept, form));
     }
     learn(made.agent);
     return made;
@@ -185,24 +191,15 @@ static learnt learn_numbers(uint8_t oblique) {
     static rlvc_thresholds thresholds;
     learnt made = {NULL, 0, NULL};
     rlvc_domain domain;
-    rlvc_config config;
     uint64_t state = 1;
     must(rlvc_thresholds_default(&thresholds, COMPONENTS), "default");
     thresholds.oblique = oblique;
     must(rlvc_thresholds_domain(&thresholds, &domain), "domain");
-    must(rlvc_config_default(&config, &domain, 4), "config");
-    config.capacity = NUMBERS_CAPACITY;
-    config.classes = 400;
-    config.epsilon = 1.0f;
-    must(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &made.agent), "init");
+    made.agent = make_agent(&domain, NUMBERS_CAPACITY, 1.0f);
     for (uint32_t i = 0; i < NUMBERS_CAPACITY; i++) {
-        rlvc_choice choice;
         float x[COMPONENTS];
         draw_numbers(&state, x);
-        must(rlvc_begin(made.agent, x), "begin");
-        must(rlvc_act(made.agent, &choice), "act");
-        const float reward = choice.action == wanted_of_numbers(x) ? 1.0f : 0.0f;
-        must(rlvc_observe(made.agent, choice, reward, NULL, RLVC_TERMINATED), "observe");
+        decide(made.agent, x, wanted_of_numbers(x));
     }
     learn(made.agent);
     return made;
@@ -220,13 +217,8 @@ learnt learn_case(uint32_t i) {
     static const uint32_t depth[] = {0, 0, 4, 4, 6};
     learnt made = {NULL, bits[i], NULL};
     rlvc_domain domain;
-    rlvc_config config;
     must(rlvc_bits_domain(bits[i], &domain), "domain");
-    must(rlvc_config_default(&config, &domain, 4), "config");
-    config.capacity = capacity[i];
-    config.classes = 400;
-    config.epsilon = i == 0 ? 0.9f : 1.0f;
-    must(rlvc_agent_init(&config, &domain, &memory, sizeof memory, &made.agent), "init");
+    made.agent = make_agent(&domain, capacity[i], i == 0 ? 0.9f : 1.0f);
     if (i == 0)
         learn_maze(made.agent);
     else
