@@ -14,21 +14,21 @@
 struct Options {
     std::vector<LearnerType> learners; // at least one
     uint8_t solver = 0;                // RLVC_SOLVER_*: that of the learner at work
-    uint8_t criterion = 0;     // RLVC_CRITERION_*
+    uint8_t criterion = 0;             // RLVC_CRITERION_*
     uint32_t interactions = 0; // returns: of each step; residual: of the whole run. 0: see settle()
     uint32_t steps = 0;        // learning steps; 0: see settle()
     float gamma = 0.9f;
-    float epsilon = -1.0f; // negative: see settle()
+    float epsilon = -1.0f;    // negative: see settle()
     float alpha = 0.0f;       // 0: see settle()
     float alpha_known = 0.0f; // likewise
     int successors = -1;      // negative: likewise
-    uint32_t seed = 1;     // of the first run; each further run takes the next number
-    uint32_t runs = 0;     // 0: one run, shown in full
-    std::string maze;      // a file; empty: Sutton's maze
+    uint32_t seed = 1;        // of the first run; each further run takes the next number
+    uint32_t runs = 0;        // 0: one run, shown in full
+    std::string maze;         // a file; empty: Sutton's maze
     float slip = 0.0f;
     uint32_t distractors = 11;
-    uint32_t classes = 0;  // 0: see settle()
-    uint32_t capacity = 0; // 0: see settle()
+    uint32_t classes = 0;            // 0: see settle()
+    uint32_t capacity = 0;           // 0: see settle()
     std::string json, dot, export_c; // files; empty: none
 };
 

@@ -7,7 +7,6 @@
 
 namespace {
 
-
 constexpr int draws = 16; // percepts of each cell
 
 CellPolicy look_up_cell(const Decide &decide, const gridworld_maze &maze, uint32_t distractors,

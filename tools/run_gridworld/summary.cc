@@ -113,8 +113,7 @@ std::string describe_task(const Options &options, const gridworld_maze &maze) {
     std::string text = describe_world(options, maze);
     text += format(
         "Learning  %s, %s criterion, %s steps of %s interactions%s\n",
-        options.learners.front().name, criterion_name(options),
-        grouped(options.steps).c_str(),
+        options.learners.front().name, criterion_name(options), grouped(options.steps).c_str(),
         grouped(returns ? options.interactions : options.interactions / options.steps).c_str(),
         returns ? ", fresh ones in each" : "");
     text += format("          gamma %g, epsilon %g, alpha %g, of known bits %g%s, seed %u\n",
@@ -289,8 +288,8 @@ std::string comparison_row(const LearnerRuns &learner) {
         ms.push_back(static_cast<uint64_t>(run.seconds * 1000.0));
     }
     const Spread optimal = spread(values);
-    const auto reached = values.size() - static_cast<std::size_t>(
-                                             std::count(values.begin(), values.end(), never));
+    const auto reached =
+        values.size() - static_cast<std::size_t>(std::count(values.begin(), values.end(), never));
     return format(comparison_pattern, learner.learner.name,
                   grouped(learner.runs.front().interactions).c_str(),
                   count_or_never(spread(first).median).c_str(),
@@ -302,14 +301,15 @@ std::string comparison_row(const LearnerRuns &learner) {
 
 std::string comparison_line(const LearnerType &learner, uint32_t run, uint32_t runs,
                             uint64_t interactions, uint32_t optimal_cells) {
-    return format("%s, run %u of %u: %s interactions, %u cells optimal", learner.name, run + 1, runs,
-                  grouped(interactions).c_str(), optimal_cells);
+    return format("%s, run %u of %u: %s interactions, %u cells optimal", learner.name, run + 1,
+                  runs, grouped(interactions).c_str(), optimal_cells);
 }
 
 std::string comparison_footer() {
-    return "\n"
-           "first time: interactions until all cells were optimal, median. optimal: runs where they stayed so;\n"
-           "mean, median, worst: until they did, the mean of just those runs. states: classes, or rows of\n"
-           "the table, median. told-...: is told the number of the cell. raw-...: takes a whole percept as\n"
-           "one state.\n";
+    return R"(
+first time: interactions until all cells were optimal, median. optimal: runs where they stayed so;
+mean, median, worst: until they did, the mean of just those runs. states: classes, or rows of
+the table, median. told-...: is told the number of the cell. raw-...: takes a whole percept as
+one state.
+)";
 }

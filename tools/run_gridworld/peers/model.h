@@ -50,8 +50,7 @@ class ModelPeer : public Peer {
     PeerRandom random_;
     std::vector<Row> model_;             // by state
     std::vector<double> value_, bright_; // V, V+
-    bool learnt_ =
-        true; // a pair has become known since V+ was solved for, or nothing is solved yet
+    bool learnt_ = true; // V+ is to be solved for: anew, as a pair has become known, or at first
 };
 
 #endif

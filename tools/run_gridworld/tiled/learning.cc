@@ -53,8 +53,7 @@ uint32_t classes_for(const TiledOptions &options, const gridworld_maze &maze) {
 Run::Run(const TiledOptions &options, const gridworld_maze &maze, const Optimum &optimum,
          Gallery &gallery, uint32_t seed)
     : options_(options), maze_(maze), optimum_(optimum), gallery_(gallery),
-      domain_(gallery.domain()), classes_max_(classes_for(options, maze)),
-      random_(seed) {
+      domain_(gallery.domain()), classes_max_(classes_for(options, maze)), random_(seed) {
     check(rlvc_config_default(&config_, &domain_, GRIDWORLD_ACTIONS), "rlvc_config_default");
     config_.capacity = options.interactions;
     config_.classes = classes_max_;
