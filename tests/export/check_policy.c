@@ -136,6 +136,15 @@ static void put_at_edge(const learnt *made, uint32_t split_number, vectors *perc
     }
 }
 
+static int all_reached(const uint32_t *reached, uint32_t classes) {
+    for (uint32_t c = 0; c < classes; c++)
+        if (reached[c] == 0) {
+            printf("  no percept fell into class %u\n", (unsigned)c);
+            return 0;
+        }
+    return 1;
+}
+
 static int check_vectors(const learnt *made, uint32_t i) {
     uint32_t reached[400] = {0};
     rlvc_statistics statistics;
@@ -153,12 +162,7 @@ static int check_vectors(const learnt *made, uint32_t i) {
             return 0;
         reached[class_id]++;
     }
-    for (uint32_t c = 0; c < statistics.classes; c++)
-        if (reached[c] == 0) {
-            printf("  no percept fell into class %u\n", (unsigned)c);
-            return 0;
-        }
-    return 1;
+    return all_reached(reached, statistics.classes);
 }
 
 /* Puts a percept on the cutpoint of a split, or beside it. */
@@ -195,12 +199,7 @@ static int check_numbers(const learnt *made, uint32_t i) {
         }
         reached[class_id]++;
     }
-    for (uint32_t c = 0; c < statistics.classes; c++)
-        if (reached[c] == 0) {
-            printf("  no percept fell into class %u\n", (unsigned)c);
-            return 0;
-        }
-    return 1;
+    return all_reached(reached, statistics.classes);
 }
 
 /* Compares what is written with a file as it goes. */
