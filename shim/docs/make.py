@@ -82,14 +82,15 @@ def draw_visits(env, rows, file):
 
 
 def draw_returns(rows, bit, file):
-    """Step 3: what moving right was worth in class 0, once one value is known: that of the exit."""
-    right = [(row[2], row[0][bit]) for row in rows if row[1] == 0]
+    """Step 3: what moving up was worth in class 0, once one value is known: that of the exit."""
+    up = [(row[2], row[0][bit]) for row in rows if row[1] == 0]
     figure = Figure(figsize=(6, 2.8), layout="constrained")
     axes = figure.subplots()
-    values = [[r for r, present in right if present == side] for side in (0, 1)]
+    values = [[r for r, present in up if present == side] for side in (0, 1)]
     bins = np.linspace(-5, 105, 12)
     axes.hist(values, bins=bins, color=[GREY, BLUE], label=["bit 3 absent", "bit 3 present"])
     axes.set_yscale("log")
+    axes.set_ylim(bottom=0.8)  # a single one is to be seen
     axes.set_xlabel("what moving up earned in class 0, in units of reward")
     axes.set_ylabel("interactions")
     axes.legend(frameon=False)

@@ -91,7 +91,7 @@ def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
     return graph
 
 
-_LABEL = 1.0  # inches that a class's label takes
+_LABEL = 0.8  # inches that a class's label takes
 
 
 class _Place(NamedTuple):
