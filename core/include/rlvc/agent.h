@@ -92,9 +92,13 @@ typedef struct rlvc_config {
     float alpha_known;         /* the same for a feature that the tree holds already, and that has so
                                   proved to be no noise: less evidence is asked of it, (0, 1]; below
                                   alpha it has no effect. Default 0.1 */
-    float tolerance;           /* a batch solver's values are within this of the fixed point, in units
-                                  of reward, (0, RLVC_REWARD_MAX]; targets nearer than twice this
-                                  count as equal under the residual criterion. Default 0.01 */
+    float tolerance;           /* in units of reward, (0, RLVC_REWARD_MAX]: a batch solver that ends by
+                                  itself leaves values within this of the fixed point, plus what
+                                  binary32 costs: at most 1e-6 max|V| / (1 - discount). (Policy
+                                  iteration: of the fixed point of a policy that no other action betters
+                                  by more than this. Discount 1: just that its last sweep changed no
+                                  value by more.) Targets nearer than twice this count as equal under
+                                  the residual criterion. Default 0.01 */
     float learning_rate;       /* of the incremental solvers, (0, 1]. Default 0.1 */
     float optimistic_value;    /* for RLVC_UNTRIED_OPTIMISTIC, in units of return,
                                   +-RLVC_REWARD_MAX. Default 0 */
