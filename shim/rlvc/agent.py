@@ -393,7 +393,8 @@ class Agent(Looking):
 
         Notes
         -----
-        The agent is unchanged. Source: ``core/include/rlvc/policy.h``.
+        The agent is unchanged. After a learning step by the criterion of returns the ring is empty: let
+        more interactions come first. Source: ``core/include/rlvc/policy.h``.
         """
         return Policy(self, tolerance=tolerance, percepts=percepts, entries=entries, effort=effort)
 

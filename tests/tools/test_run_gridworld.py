@@ -329,6 +329,8 @@ def test_default_run_learns_the_maze(tmp_path):
 def test_returns_criterion(tmp_path):
     made = report("--criterion", "returns", "--interactions", "2000", "--steps", "4", cwd=tmp_path)
     assert made["interactions"] == 8000 and len(made["history"]) == 4
+    assert made["policy_leaves"] > 1, "a step leaves an empty ring, for which one would do"
+    assert made["policy_optimal_cells"] >= made["optimal_cells"]
     check_run(made)
 
 

@@ -60,7 +60,7 @@ class Learner {
 
     void collect(uint64_t count);
     StepRecord learn();
-    RunResult result() const;
+    RunResult result();
 
   private:
     void interact();
@@ -187,7 +187,7 @@ std::string Learner::print(uint32_t format) const {
     return all;
 }
 
-RunResult Learner::result() const {
+RunResult Learner::result() {
     RunResult result = result_;
     rlvc_statistics statistics;
     check(rlvc_stats(agent_, &statistics), "rlvc_stats");
@@ -201,6 +201,10 @@ RunResult Learner::result() const {
     }
     result.tree_json = print(RLVC_PRINT_JSON);
     result.tree_dot = print(RLVC_PRINT_DOT);
+    // By returns a step leaves an empty ring, and a policy is made for the percepts in it: those of one more.
+    if (options_.criterion == RLVC_CRITERION_RETURNS) {
+        collect(options_.interactions);
+    }
     result.compaction = compact(agent_, maze_, options_.distractors, optimum_);
     result.fewest = fewest_leaves(maze_, optimum_);
     return result;

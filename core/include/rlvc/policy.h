@@ -77,8 +77,9 @@ typedef struct rlvc_policy_info {
 } rlvc_policy_info;
 
 /* Makes a policy of an agent, which is unchanged; best between learning steps, as while one is under way the
- * actions and values are those of the last solution. O(P (F + depth)) for the P percepts of the ring and F
- * features, with as many calls of exhibits(); then that of rlvc_fewest.
+ * actions and values are those of the last solution. A step by RLVC_CRITERION_RETURNS leaves the ring without
+ * percepts: then after more interactions. O(P (F + depth)) for the P percepts of the ring and F features,
+ * with as many calls of exhibits(); then that of rlvc_fewest.
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_policy_size or more
  * @param info optional
  * @return RLVC_OK; RLVC_E_RANGE: a field of the config; RLVC_E_MEMORY; RLVC_E_CALLBACK. On error *policy
