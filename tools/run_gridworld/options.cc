@@ -35,8 +35,7 @@ constexpr uint32_t small_cells = 46;
 constexpr uint32_t large_interactions_a_cell = 320;
 constexpr uint32_t classes_min = 64, classes_max = 65535;
 
-constexpr char defaults_table[] = R"(
-Defaults by criterion    interactions  steps  epsilon  alpha    known    successors  capacity
+constexpr char defaults_table[] = R"(Defaults by criterion    interactions  steps  epsilon  alpha    known    successors  capacity
   returns                10000 each       20  0.8      0.0001   0.0001   no          a step's
   residual, small maze   2500             25  0.9      0.0001   0.1      yes         1200
   ... by increments      20000           200  0.3      0.0001   0.1      yes         1200

@@ -80,8 +80,9 @@ std::string leaves_of(const Fewest &fewest) {
 }
 
 std::string describe_policy(const RunResult &run) {
-    return format("%u leaves do for it, in %u of %u cells optimal; an optimal one needs %s",
-                  run.compaction.info.leaves, run.compaction.optimal, run.cells,
+    const uint32_t leaves = run.compaction.info.leaves;
+    return format("%u %s for it, in %u of %u cells optimal; an optimal one needs %s", leaves,
+                  leaves == 1 ? "leaf does" : "leaves do", run.compaction.optimal, run.cells,
                   leaves_of(run.fewest).c_str());
 }
 
