@@ -25,8 +25,12 @@ if TYPE_CHECKING:
     import gymnasium
 
 _CAPACITY_MAX = 1_000_000
+_LEAVES = 12  # of a policy on trial
 _RANDOM_AT_FIRST = 1000  # interactions before the first trial
-_LEAVES = 12
+_LAST = 0.25  # share of the interactions that choose among the policies tried before
+# With trials, of a class that is tested. What is felt only seldom, as the end of the track, is not seen
+# in fewer, and the classes are used up by what is felt always.
+_MIN_SAMPLES = 64
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,7 +70,7 @@ class Run:
     encoder : Encoder or None
         None if percepts are the agent's own.
     history : list of Record
-        One a learning step.
+        One a learning step; where trials are over and a policy is chosen, one an episode.
     seed : int
     interrupted : bool
         Whether Ctrl-C ended it early.
@@ -439,16 +443,19 @@ def learn(
         Learn by trials (:mod:`rlvc.trials`): what acts is a policy of at most so many leaves, made of
         the agent's values, and the one that earned most is kept. A learning step comes after each
         trial, and not ``every`` so many interactions; after a random beginning (1000 interactions, or
-        a tenth of all) nothing explores but the trials. 0: no trials. None: 12 where percepts are real
-        numbers and there is one environment, else 0. Trials need both, and are not for the criterion
-        of returns.
+        a tenth of all) nothing explores but the trials. In the last quarter nothing is learnt; in each
+        episode the best so far acts, so that what was good by luck is found out. 0: no trials. None: 12
+        where percepts are real numbers and there is one environment, else 0. Trials need both, and are
+        not for the criterion of returns.
     progress : bool
         Whether to show a progress bar, with classes, return and refinements.
     callback : callable or None
-        Called with the run after each learning step; if it returns True, learning ends.
+        Called with the run after each learning step, and each episode of the last quarter where
+        learning is by trials; if it returns True, learning ends.
     **config
         Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
-        million), ``classes`` is 512, ``discount`` 0.99 and ``tolerance`` 0.001.
+        million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with trials,
+        ``min_samples`` 64.
 
     Returns
     -------
@@ -477,9 +484,8 @@ def learn(
     learner = _Learner(stream, interactions, every or max(100, interactions // 100))
     if encoder is None:
         encoder = Encoder(stream.observation_space, thresholds)
-    settings = default_config(stream.actions, interactions, seed % 2**32, config)
-    run = Run(Agent(domain_of(encoder), settings), encoder, seed, stream.start)
-    able = isinstance(run.agent.domain, Thresholds) and not stream.vector
+    domain = domain_of(encoder)
+    able = isinstance(domain, Thresholds) and not stream.vector
     able = able and config.get("criterion") != "returns"
     if leaves is None:
         leaves = _LEAVES if able else 0
@@ -488,6 +494,10 @@ def learn(
             "leaves: trials need one environment, percepts that are real numbers, and not the criterion "
             "of returns"
         )
+    if leaves > 0:
+        config = {"min_samples": _MIN_SAMPLES} | config
+    settings = default_config(stream.actions, interactions, seed % 2**32, config)
+    run = Run(Agent(domain, settings), encoder, seed, stream.start)
     bar = _bar(interactions, progress)
     try:
         if leaves > 0:
@@ -532,11 +542,12 @@ def _learn_by_trials(
     bar: Any,
     callback: Callable[[Run], object] | None,
 ) -> None:
-    """Let small policies act, and learn after each trial of one."""
+    """Let small policies act, and learn after each trial of one; then choose among them."""
     stream, agent, trials = learner.stream, run.agent, Trials()
     random = np.random.default_rng([run.seed, 2])
     percepts = np.empty((learner.interactions, *agent.domain.percept_shape), np.float32)
     at_first = max(1, min(_RANDOM_AT_FIRST, learner.interactions // 10))
+    at_last = learner.interactions * (1 - _LAST)
     here = packed(run.encoder, [stream.current], agent.domain)[0]
     agent.begin(here)
     gained, since = 0.0, 0
@@ -557,10 +568,15 @@ def _learn_by_trials(
             continue
         due = learner.done >= at_first if policy is None else trials.end_episode(gained)
         gained, since = 0.0, learner.done
-        if due:
+        splits = 0
+        if policy is not None and learner.done >= at_last:
+            trials.resume()
+        elif due:
             splits = agent.learn().splits
             trials.start(_shrunk(agent, percepts[: learner.done], leaves))
-            run.small = trials.best or trials.policy
-            _note(run, learner, splits, bar)
-            if callback is not None and callback(run) is True:
-                return
+        else:
+            continue
+        run.small = trials.best or trials.policy
+        _note(run, learner, splits, bar)
+        if callback is not None and callback(run) is True:
+            return

@@ -3,7 +3,8 @@
 
 Of real numbers a tree never knows enough: each new class makes values a little truer, and the policy
 of a class-level model that is nearly right may be a bad one. So a small tree is made of the agent's
-values (:func:`shrink`), it is this tree that acts, and what it earns decides (:class:`Trials`).
+values (:func:`shrink`), it is this tree that acts, and what it earns decides (:class:`Trials`). Of many
+that are tried for a few episodes the best may be one that was lucky; so it is tried again in the end.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from .errors import RangeError
 
 _CUTPOINTS = 32  # of a component, at quantiles of all percepts
 _EPISODES = 5  # of a trial, at most
-_DOUBT = 0.3  # episodes without return that are added to those of a trial, when it is compared
+_DOUBT = 0.3  # episodes that earn nothing, added to those of a policy when it is compared
 _LEAST = 1e-6  # gain of a test that is worth a leaf, as a share of what is at stake
 
 Reals = npt.NDArray[Any]
@@ -156,6 +157,7 @@ class _Growth:
     def __init__(self, rows: Reals, values: Reals) -> None:
         order = np.sort(values, axis=1)
         stake = order[:, -1] - order[:, -2] if values.shape[1] > 1 else order[:, -1] * 0
+        stake = np.sqrt(stake)
         self.weight = np.zeros(values.shape)
         self.weight[np.arange(len(rows)), values.argmax(axis=1)] = stake
         ranks = np.arange(1, _CUTPOINTS + 1) / (_CUTPOINTS + 1)
@@ -213,8 +215,10 @@ def _impurity(weight: Reals) -> Any:
 def shrink(percepts: Reals, values: Reals, leaves: int) -> SmallPolicy:
     """Make a small policy that loses as little as can be of what is at stake, by a greedy search.
 
-    Each percept wants the action of the greatest value, by as much as that is above the second. The
-    leaf is split, and the cutpoint taken, by which the impurity of these wishes falls most.
+    Each percept wants the action of the greatest value, by the square root of how much that is above
+    the second: by as much itself, what goes before a fall would take all leaves, and none be left for
+    what keeps one far from falling. The leaf is split, and the cutpoint taken, by which the impurity
+    of these wishes falls most.
 
     Parameters
     ----------
@@ -246,37 +250,54 @@ class Trials:
     """Which policy acts, and which has done best.
 
     A policy is tried for a few episodes, and no longer than its mean return is at least that of the
-    best so far. Then the next is made. Of two, the better has the greater sum of returns over episodes,
-    with a little doubt added to the latter.
+    best so far. Then the next is made. The best is the one with the greatest mean return, of which a
+    little is taken off for doubt, the less the more episodes it was tried for.
 
     Attributes
     ----------
     policy : SmallPolicy or None
         On trial.
     best : SmallPolicy or None
-        Of those tried.
+        Of those with an episode.
     """
 
     def __init__(self) -> None:
-        self.policy: SmallPolicy | None = None
-        self.best: SmallPolicy | None = None
-        self._returns: list[float] = []
-        self._best_returns: list[float] = []
+        self._tried: list[tuple[SmallPolicy, list[float]]] = []
+        self._now: tuple[SmallPolicy, list[float]] | None = None
+
+    @property
+    def policy(self) -> SmallPolicy | None:
+        """On trial."""
+        return self._now[0] if self._now else None
+
+    @property
+    def best(self) -> SmallPolicy | None:
+        """Of those with an episode."""
+        return self._best()[0] if self._tried else None
+
+    def _best(self) -> tuple[SmallPolicy, list[float]]:
+        """With its returns; of equals the last."""
+        return max(reversed(self._tried), key=lambda tried: _score(tried[1]))
 
     def start(self, policy: SmallPolicy) -> None:
         """Put a policy on trial."""
-        self.policy, self._returns = policy, []
+        self._now = (policy, [])
 
     def end_episode(self, gained: float) -> bool:
         """Note the return of an episode; whether the trial is over."""
-        self._returns.append(gained)
-        mine, others = self._returns, self._best_returns
-        if self.best is self.policy or not others or _score(mine) >= _score(others):
-            self.best, self._best_returns = self.policy, mine
-        return len(mine) >= _EPISODES or np.mean(mine) < np.mean(self._best_returns)
+        assert self._now is not None
+        returns = self._now[1]
+        if not returns:
+            self._tried.append(self._now)
+        returns.append(gained)
+        return len(returns) >= _EPISODES or np.mean(returns) < np.mean(self._best()[1])
+
+    def resume(self) -> None:
+        """Put the best on trial again; what it earned before counts on."""
+        self._now = self._best()
 
 
-def _score(returns: list[float]) -> float:
-    """The mean, with doubt: of equal means the one of more episodes, if they are positive."""
-    count = len(returns)
-    return sum(returns) / (count + _DOUBT) if sum(returns) > 0 else sum(returns) / count
+def _score(returns: list[float]) -> Any:
+    """The mean, less doubt."""
+    mean = np.mean(returns)
+    return mean - abs(mean) * _DOUBT / (len(returns) + _DOUBT)

@@ -60,6 +60,14 @@ def test_nothing_to_tell_apart(values):
     assert small.leaves == 1 and small.act(plane()).tolist() == [int(values[0].argmax())] * 400
 
 
+def test_much_at_stake_does_not_take_all_leaves():
+    x = plane()
+    values = np.zeros((len(x), 2))
+    values[:, 1] = np.where(x[:, 1] > 0.95, -100, np.sign(x[:, 0]))  # ten rows, or most of it all
+    assert shrink(x, values, 2).text().startswith("x[0]")
+    assert "x[1] > 0.9" in shrink(x, values, 3).text()
+
+
 def test_tests_that_lead_to_the_same_are_left_out():
     x = np.round(plane() * 2)  # -2 to 2
     values = np.eye(2)[(np.abs(x[:, 0]) > 1).astype(int)]
@@ -81,6 +89,12 @@ def test_a_trial_ends_when_it_is_lost():
     assert [trials.end_episode(10.0) for _ in range(4)] == [False] * 4
     assert trials.best is good  # a tie so far, by fewer episodes
     assert trials.end_episode(11.0) and trials.best is bad
+    trials.start(good)
+    assert trials.end_episode(2.0)
+    trials.resume()
+    assert trials.policy is bad and trials.end_episode(4.0) and trials.best is not bad
+    trials.resume()
+    assert trials.policy is good  # which had 10.0 five times
     negative, worse = Trials(), SmallPolicy()
     negative.start(worse)
     negative.end_episode(-5.0)
@@ -93,6 +107,10 @@ def test_a_pole_is_balanced():
     assert 2 <= run.small.leaves <= 8
     assert run.evaluate(gymnasium.make("CartPole-v1"), 10) > 100
     assert run.text() == run.encoder.explain(run.small.text())
+    assert run.agent.config.min_samples == 64
+    last = [record for record in run.history if record.interactions >= 0.75 * 3000]
+    assert len(last) > 1 and all(record.splits == 0 for record in last)
+    assert len({record.step for record in last}) == 1  # not learning, but choosing
     again = rlvc.learn(gymnasium.make("CartPole-v1"), 3000, seed=1, discount=0.98, leaves=8)
     assert again.text() == run.text() and again.agent.print() == run.agent.print()
 
@@ -126,6 +144,7 @@ def test_trials_only_where_they_can_be():
     with pytest.raises(errors.ConfigError, match="leaves"):
         rlvc.learn(Drift(), 100, leaves=5, criterion="returns")
     run = rlvc.learn(Drift(), 500, seed=1, leaves=0)
+    assert run.agent.config.min_samples == 8
     assert run.small is None and run.act(np.zeros(1, np.float32)) in (0, 1)
     stopped = rlvc.learn(Drift(), 2000, seed=1, callback=lambda run: True)
     assert len(stopped.history) == 1 and stopped.small is not None
