@@ -8,5 +8,4 @@ set(rlvc_ram 0x20000000)
 set(rlvc_ram_size 0x400000)
 set(rlvc_emulator qemu-system-arm -icount shift=6,sleep=off -M mps2-an385)
 set(RLVC_EXACT_COUNT ON) # of instructions: core/TIME.md is of this target
-set(RLVC_PROVE_EXPORTS ON)
 include(${CMAKE_CURRENT_LIST_DIR}/picolibc.cmake)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The power fails at every byte that is written or erased while an agent is saved, over 200 cycles of learning
- * and saving: what is loaded then is the older or the newer of two agents, and goes on to the same tree.
+/* The power fails at every byte that is written or erased while an agent is saved, over RLVC_POWER_CYCLES
+ * cycles of learning and saving: what is loaded then is the older or the newer of two agents, and goes on to
+ * the same tree.
  *
  * An agent that is loaded lies in memory that was filled beforehand, so that all its bytes follow from the
  * snapshot: two that agree in all of them do the same for ever. So it is enough that each cut leaves one of two
@@ -15,8 +16,6 @@
 #include "snapshots.h"
 #include "state.h"
 
-#define CYCLES 200u
-
 static unsigned char older[BLOCK_BYTES], newer[BLOCK_BYTES];
 static player_result expected, got;
 
@@ -30,7 +29,7 @@ static void live(player *of, uint32_t cycle) {
 
 /* From the beginning of a cycle to the end of the course. */
 static void live_on(player *of, uint32_t cycle, player_result *result) {
-    for (; cycle < CYCLES; cycle++)
+    for (; cycle < RLVC_POWER_CYCLES; cycle++)
         live(of, cycle);
     player_result_of(of, result);
 }
@@ -74,7 +73,7 @@ static void cut_everywhere(int flash, uint32_t bytes) {
     rlvc_store store = medium_store(&m, &p.config, &p.domain, flash);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     image_of(0, newer);
-    for (uint32_t cycle = 0; cycle < CYCLES; cycle++) {
+    for (uint32_t cycle = 0; cycle < RLVC_POWER_CYCLES; cycle++) {
         memcpy(older, newer, sizeof older);
         live(&p, cycle);
         image_of(cycle + 1u, newer);
@@ -88,14 +87,14 @@ static void cut_everywhere(int flash, uint32_t bytes) {
     player_result_of(&p, &got);
     assert_memory_equal(&got, &expected, sizeof got);
     assert_true(m.syncs > 0);
-    assert_true(points > CYCLES * bytes);
+    assert_true(points > RLVC_POWER_CYCLES * bytes);
     /* The last bytes of a CRC may stand there already, by chance. */
     assert_true(early < 10);
 }
 
 static void test_cuts_of_a_file(void **state) {
     (void)state;
-    cut_everywhere(0, 600);
+    cut_everywhere(0, 400);
 }
 
 static void test_cuts_of_a_flash(void **state) {

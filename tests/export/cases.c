@@ -10,11 +10,11 @@
 #define BYTES_MAX GRIDWORLD_PERCEPT_BYTES(BITS_MAX)
 #define PLACES 6u
 #define VECTORS_CAPACITY 1500u
-#define NUMBERS_CAPACITY 4000u
+#define NUMBERS_CAPACITY 2000u
 
 static union {
     uint64_t aligned;
-    unsigned char bytes[RLVC_AGENT_BYTES(4, 45000, 400, BYTES_MAX, RLVC_BITS_FEATURE_BYTES, 64)];
+    unsigned char bytes[RLVC_AGENT_BYTES(4, 30000, 400, BYTES_MAX, RLVC_BITS_FEATURE_BYTES, 64)];
     unsigned char vectors[RLVC_AGENT_BYTES(
         4, VECTORS_CAPACITY, 400, sizeof(vectors),
         RLVC_DESCRIPTORS_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT), 64)];
@@ -213,7 +213,7 @@ learnt learn_case(uint32_t i) {
     if (i >= 5)
         return learn_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8);
     static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};
-    static const uint32_t capacity[] = {4000, 100, 30000, 12000, 45000};
+    static const uint32_t capacity[] = {4000, 100, 12000, 6000, 30000};
     static const uint32_t depth[] = {0, 0, 4, 4, 6};
     learnt made = {NULL, bits[i], NULL};
     rlvc_domain domain;
