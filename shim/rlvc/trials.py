@@ -252,13 +252,6 @@ class Trials:
     A policy is tried for a few episodes, and no longer than its mean return is at least that of the
     best so far. Then the next is made. The best is the one with the greatest mean return, of which a
     little is taken off for doubt, the less the more episodes it was tried for.
-
-    Attributes
-    ----------
-    policy : SmallPolicy or None
-        On trial.
-    best : SmallPolicy or None
-        Of those with an episode.
     """
 
     def __init__(self) -> None:
@@ -267,12 +260,12 @@ class Trials:
 
     @property
     def policy(self) -> SmallPolicy | None:
-        """On trial."""
+        """The one on trial."""
         return self._now[0] if self._now else None
 
     @property
     def best(self) -> SmallPolicy | None:
-        """Of those with an episode."""
+        """The one that has done best of those that had an episode."""
         return self._best()[0] if self._tried else None
 
     def _best(self) -> tuple[SmallPolicy, list[float]]:
@@ -297,7 +290,7 @@ class Trials:
         self._now = self._best()
 
 
-def _score(returns: list[float]) -> Any:
+def _score(returns: list[float]) -> float:
     """The mean, less doubt."""
-    mean = np.mean(returns)
+    mean = float(np.mean(returns))
     return mean - abs(mean) * _DOUBT / (len(returns) + _DOUBT)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Proves the exported policies equal to the agents that they were exported from: on every percept up to
- * 20 bits; else on RLVC_EXPORT_PERCEPTS random ones. Of those the first fall on a path to each leaf of the
- * tree (many, the other bits being random); of descriptors, half have a vector whose distance from a feature
- * is its radius up to a few roundings; of thresholds, half lie on a cutpoint up to a few roundings. And an
- * agent that learnt the same exports the same, to the letter. */
+ * 20 bits; of more bits on RLVC_EXPORT_BITS random ones, of which the first fall on a path to each leaf of the
+ * tree (many, the other bits being random); else on RLVC_EXPORT_REALS. Of these, of descriptors, half have a
+ * vector whose distance from a feature is its radius up to a few roundings; of thresholds, half lie on a
+ * cutpoint up to a few roundings. And an agent that learnt the same exports the same, to the letter. */
 #include "bytes.h"
 #include "cases.h"
 #include "floats.h"
@@ -97,7 +97,7 @@ static int check_some(const learnt *made, uint32_t i) {
     rlvc_statistics statistics;
     if (rlvc_stats(made->agent, &statistics) != RLVC_OK)
         return 0;
-    for (uint32_t n = 0; n < RLVC_EXPORT_PERCEPTS; n++) {
+    for (uint32_t n = 0; n < RLVC_EXPORT_BITS; n++) {
         for (uint32_t byte = 0; byte < RLVC_BITS_PERCEPT_BYTES(made->bits); byte += 4u) {
             const uint32_t four = draw(&state);
             memcpy(percept + byte, &four, sizeof four);
@@ -149,7 +149,7 @@ static int check_vectors(const learnt *made, uint32_t i) {
     rlvc_statistics statistics;
     if (rlvc_stats(made->agent, &statistics) != RLVC_OK || statistics.classes < 4)
         return 0;
-    for (uint32_t n = 0; n < RLVC_EXPORT_PERCEPTS; n++) {
+    for (uint32_t n = 0; n < RLVC_EXPORT_REALS; n++) {
         vectors percept;
         uint32_t class_id = 0;
         memset(&percept, 0, sizeof percept);
@@ -184,7 +184,7 @@ static int check_numbers(const learnt *made, uint32_t i) {
     rlvc_statistics statistics;
     if (rlvc_stats(made->agent, &statistics) != RLVC_OK || statistics.classes < 4)
         return 0;
-    for (uint32_t n = 0; n < RLVC_EXPORT_PERCEPTS; n++) {
+    for (uint32_t n = 0; n < RLVC_EXPORT_REALS; n++) {
         float x[COMPONENTS];
         uint32_t class_id = 0, action = 0;
         draw_numbers(&state, x);

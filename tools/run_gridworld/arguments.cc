@@ -101,9 +101,9 @@ bool parse(CLI::App &app, int argc, char **argv) {
         throw Failure(app.remaining(true).front() + ": not expected; --help names what is");
     } catch (const CLI::ArgumentMismatch &error) { // "--name: ...", or "flag was given ..."
         const std::string what = error.what();
-        const std::size_t end = what.find_first_of(": ");
-        throw Failure(what[end] == ':' ? what.substr(0, end) + ": takes one value, once"
-                                       : "--" + what.substr(0, end) + ": takes no value");
+        const std::string name = what.substr(0, what.find_first_of(": "));
+        const bool values = what.compare(name.size(), 1, ":") == 0;
+        throw Failure(values ? name + ": takes one value, once" : "--" + name + ": takes no value");
     } catch (const CLI::ParseError &error) {
         throw Failure(error.what());
     }
