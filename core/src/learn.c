@@ -172,6 +172,18 @@ static int recognise(rlvc_agent *agent, const void *feature) {
     return 0;
 }
 
+/* ln of the level at which a feature new to the tree splits a class in this step: its share of alpha. The steps
+ * share alpha by doublings, 1, 2, 4, ... steps long: the d-th has 1 / (d (d + 1)) of it, in equal parts, and so
+ * all together have it once. In a step the two phases share alike. */
+static float log_level(const rlvc_agent *agent) {
+    float steps = 1.0f; /* of the doubling */
+    uint32_t d = 1;
+    for (uint64_t k = agent->step + (uint64_t)1; k >> d != 0; d++)
+        steps *= 2.0f;
+    float phases = agent->config.successors ? 2.0f : 1.0f;
+    return rlvc_ln(agent->config.alpha) - rlvc_ln((float)(d * (d + 1u)) * steps * phases);
+}
+
 static uint32_t close_class(rlvc_agent *agent, uint32_t used) {
     agent->learner.searching = 0;
     agent->learner.node = 0;
@@ -186,7 +198,7 @@ static uint32_t decide(rlvc_agent *agent) {
     const void *feature = found(agent, &split);
     if (!feature)
         return close_class(agent, 1);
-    if (!(split.log_p < rlvc_ln(agent->config.alpha))) {
+    if (!(split.log_p < log_level(agent))) {
         if (!(split.log_p < rlvc_ln(agent->config.alpha_known)))
             return close_class(agent, DECIDE_UNITS);
         if (!recognise(agent, feature))

@@ -2,9 +2,9 @@
 /* The search for the best split of a class: see split.h.
  *
  * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates at a
- * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
- * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
- * group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
+ * time (PROPOSE), each group that takes part has the block's columns made (DETECT), scanned (SCAN) and
+ * weighed (WEIGH); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
+ * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
  * (TEST_ALONE, TEST_TOGETHER). */
 #include "split.h"
 
@@ -13,7 +13,20 @@
 #include "score.h"
 #include <string.h>
 
-enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, TEST_ALONE, TEST_TOGETHER, DONE };
+enum {
+    SORT,
+    MARK,
+    PROPOSE,
+    DETECT,
+    SCAN,
+    CLOSE,
+    ASK,
+    ANSWER,
+    TEST_ALONE,
+    TEST_TOGETHER,
+    DONE,
+    WEIGH
+};
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
@@ -119,6 +132,7 @@ static void close_group(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_group *group = &searching->space->group[search->action];
     search->groups += group->cuts > 0;
     search->samples += group->cuts > 0 ? size_of(group) : 0;
+    search->cuts += group->cuts;
     if (++search->action == searching->space->actions)
         end_marking(search, searching);
     else
@@ -243,14 +257,14 @@ static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, 
 
 /* ------------------------------------------------------------------ evidence */
 
-/* Weighs a cutpoint of the group at work: the statistic of its table, and the evidence. */
+/* Weighs a cutpoint of the group at work: its table, and the evidence. */
 static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *searching,
                          const rlvc_cut *cut, uint32_t count) {
     uint32_t above = cut->present - cut->present_below;
-    rlvc_single weighed = {0.0f, cut->score, 0.0f, search->action, cut->below};
+    const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
+                              count - cut->below - above};
+    rlvc_single weighed = {0.0f, cut->score, table, search->action};
     weighed.evidence = searching->score == RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
-    (void)rlvc_chi2_table(cut->present_below, cut->below - cut->present_below, above,
-                          count - cut->below - above, &weighed.statistic);
     return weighed;
 }
 
@@ -264,12 +278,13 @@ static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
     }
 }
 
-/* Takes the result of one column and goes on to the next, or to the next group. */
-static void close_column(rlvc_search *search, const rlvc_searching *searching) {
+/* Takes the result of one column and goes on to the next, or to the next group. Returns the units used. */
+static uint32_t close_column(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_workspace *space = searching->space;
     const rlvc_group *group = &space->group[search->action];
     const rlvc_cut *found = &search->inner.scan.best;
     rlvc_pool *pool = &space->pool[search->column];
+    uint32_t used = 1;
     if (found->present > 0 && found->present < size_of(group)) {
         pool->degrees++;
         pool->log_tests += rlvc_ln((float)group->cuts);
@@ -277,15 +292,18 @@ static void close_column(rlvc_search *search, const rlvc_searching *searching) {
     if (found->score > 0.0f) {
         rlvc_single weighed = weigh(search, searching, found, size_of(group));
         pool->evidence += weighed.evidence;
-        pool->statistic += weighed.statistic;
+        pool->statistic += rlvc_table_statistic(&weighed.table);
+        used = rlvc_table_small(&weighed.table) ? RLVC_TEST_UNITS : 1u;
         keep_best_alone(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
         open_column(search, searching, group);
-        return;
+        search->phase = SCAN;
+    } else {
+        search->action++;
+        next_group(search, space, DETECT, CLOSE);
     }
-    search->action++;
-    next_group(search, space, DETECT, CLOSE);
+    return used;
 }
 
 /* All groups have seen the block: looks at feature `column` of it, together. A unit each. */
@@ -373,7 +391,7 @@ static uint32_t test(rlvc_search *search) {
         return 1;
     }
     if (search->phase == TEST_ALONE) {
-        (void)rlvc_chi2_survival(search->alone.statistic, 1, NULL, &search->alone_log_p);
+        search->alone_log_p = rlvc_table_log_p(&search->alone.table);
         enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : DONE);
     } else {
         (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
@@ -403,7 +421,10 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
     case SCAN:
         *used = rlvc_scan_step(&search->inner.scan, budget);
         if (search->inner.scan.done)
-            close_column(search, searching);
+            search->phase = WEIGH;
+        return RLVC_OK;
+    case WEIGH:
+        *used = close_column(search, searching);
         return RLVC_OK;
     case CLOSE:
         close_feature(search, searching->space);
@@ -449,7 +470,7 @@ rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *search
     } else if (search->phase == SCAN) {
         rlvc_scan_single(&search->inner.scan);
         if (search->inner.scan.done)
-            close_column(search, searching);
+            search->phase = WEIGH;
     } else {
         return advance(search, searching, RLVC_BUDGET_MIN, &used);
     }
@@ -482,7 +503,7 @@ const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *
     about->log_tests = log_features;
     /* The domain's own oracle already counts a feature for each cutpoint, and makes no sum. */
     if (search->together.degrees > 0)
-        about->log_tests += rlvc_ln((float)space->group[alone->action].cuts);
+        about->log_tests += rlvc_ln((float)search->cuts);
     about->log_p = search->alone_log_p + about->log_tests;
     if (search->groups > 1 && search->together.degrees > 0) {
         const rlvc_pool *together = &search->together;

@@ -11,11 +11,12 @@
  * The evidence of a feature and a cutpoint in a group is its score times the samples of the group (for
  * chi-square, which counts them already, the score). Two features may win:
  *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower action,
- *              then the earlier feature, then the lower cutpoint. Its chi-square statistic has one degree
- *              of freedom, its p-value is corrected by C F.
+ *              then the earlier feature, then the lower cutpoint. Its table is tested (fisher.h), its
+ *              p-value corrected by F times the sum of the groups' C.
  *   together   the one with the most evidence summed over the groups, in each at the cutpoint that is best
- *              there; of equals the earlier feature. The sum of its statistics has a degree of freedom
- *              for each group that it divides, its p-value is corrected by F times their C's multiplied.
+ *              there; of equals the earlier feature. The statistics of its tables (fisher.h) are added, with
+ *              a degree of freedom for each group that it divides, its p-value is corrected by F times their
+ *              C's multiplied.
  *              For what tells two situations apart mostly shows after each action, a little.
  * The lower p-value is the split's; where there is more than one group, so that two were made, it is
  * corrected by 2 (all these are Bonferroni's). F counts the features that divide some group. Under the
@@ -25,6 +26,7 @@
 
 #include "aliasing.h"
 #include "cutpoint.h"
+#include "fisher.h"
 #include "sort.h"
 
 /* The samples of the class after one action. */
@@ -35,7 +37,7 @@ typedef struct rlvc_group {
     uint32_t word; /* where its words begin in the cutpoints and in each column */
 } rlvc_group;
 
-/* What a p-value is charged: a sum of dozens of terms (chi2.c). */
+/* What a p-value is charged: a sum of dozens of terms (chi2.c, fisher.c). */
 #define RLVC_TEST_UNITS RLVC_BUDGET_MIN
 
 /* What the groups so far say about one feature of the block, together. */
@@ -50,9 +52,8 @@ typedef struct rlvc_pool {
 typedef struct rlvc_single {
     float evidence;
     float score;
-    float statistic;
+    rlvc_table table;
     uint32_t action;
-    uint32_t below; /* samples of the group below its cutpoint */
 } rlvc_single;
 
 /* The memory of a search. */
@@ -104,6 +105,7 @@ typedef struct rlvc_search {
     rlvc_pool together;
     uint64_t features;  /* F; with the domain's own oracle, what it considered in all */
     uint32_t samples;   /* in the groups that take part */
+    uint32_t cuts;      /* in all groups */
     uint32_t groups;    /* that take part */
     uint32_t action;    /* the group at work */
     uint32_t words;     /* of all groups */
@@ -145,8 +147,8 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, con
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for each
  * sample marked or detected (with up to 64 features; without detect(), for each feature of each sample),
- * what sorting and the scan of each column are charged, one for each feature of a block, and
- * RLVC_TEST_UNITS for each of the two p-values.
+ * what sorting and the scan of each column are charged, one for its table (RLVC_TEST_UNITS if that is
+ * small: fisher.h), one for each feature of a block, and RLVC_TEST_UNITS for each of the two p-values.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);

@@ -5,13 +5,14 @@
  *
  * For features f of s and g of s', and each action, a 2 x 2 table counts the class's samples by whether s
  * exhibits f and s' exhibits g (after a terminated interaction there is no s', which exhibits nothing). The
- * chi-square statistics of the actions are added up, with a degree of freedom for each table that has two
- * rows and two columns. The pair with the largest sum wins, of equals the lower g, then the lower f; its
- * p-value is corrected by the number of pairs that had a table (Bonferroni), and f is the split's feature.
+ * statistics of the actions' tables that have two rows and two columns (fisher.h) are added up, with a degree
+ * of freedom each. The p-value of each pair is corrected by a number of pairs (Bonferroni), fewer where
+ * g = f. The pair that is the least likely wins (as Chernoff bounds its p-value: that of each pair would cost too
+ * much), of equals the lower g, then the lower f; and f is the split's feature.
  * If the class were one situation, then s' would not depend on f, whatever the distribution of either.
  *
- * The features are the default oracle's candidates for the class, which must fit into one block of columns. For F features, N samples and A actions that costs
- * O(F N) calls of exhibits() and O(F^2 (N / 64 + A)). */
+ * The features are the default oracle's candidates for the class, which must fit into one block of columns. For
+ * F features, N samples and A actions that costs O(F N) calls of exhibits() and O(F^2 (N / 64 + A)). */
 #ifndef RLVC_SRC_SUCCESSION_H
 #define RLVC_SRC_SUCCESSION_H
 
@@ -20,8 +21,10 @@
 /* The sum over the actions for one pair (f, g). */
 typedef struct rlvc_follows {
     float statistic;
+    float evidence;
     uint32_t degrees;
-    uint32_t feature; /* f */
+    uint32_t feature;  /* f */
+    uint32_t persists; /* g = f? */
 } rlvc_follows;
 
 /* The search in one class, in slices. */
@@ -38,7 +41,6 @@ typedef struct rlvc_succession {
     uint32_t with_now;  /* samples of the group, so far, whose s exhibits f, */
     uint32_t with_next; /* whose s' exhibits g, */
     uint32_t with_both; /* and both */
-    uint32_t tests;     /* pairs that had a table */
     float log_p;        /* of the best, not yet corrected */
     uint8_t phase;
     uint8_t done;
@@ -50,7 +52,8 @@ void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *se
                            const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for the
- * candidates, one for each call of exhibits(), two for each 64 samples of a table, 8 for each table, RLVC_TEST_UNITS for the p-value.
+ * candidates, one for each call of exhibits(), two for each 64 samples of a table, 8 for each table
+ * (RLVC_TEST_UNITS if it is small: fisher.h), RLVC_TEST_UNITS for the p-value.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,
                                  uint32_t budget, uint32_t *used);

@@ -22,8 +22,8 @@
 #define CAPACITY STEP_INTERACTIONS
 #define CLASSES 64u
 #define EPSILON 0.8f
-#define ALPHA 0.0001f
-#define ALPHA_KNOWN ALPHA
+#define ALPHA 0.05f
+#define ALPHA_KNOWN 0.0001f
 #define SUCCESSORS 0
 #else /* within 32 KiB of memory in all, stack included */
 #define CRITERION RLVC_CRITERION_RESIDUAL
@@ -33,8 +33,8 @@
 #define CAPACITY 920u
 #define CLASSES 52u
 #define EPSILON 0.9f
-#define ALPHA 0.0001f
-#define ALPHA_KNOWN 0.1f
+#define ALPHA 0.05f
+#define ALPHA_KNOWN 0.2f
 #define SUCCESSORS 1
 #endif
 

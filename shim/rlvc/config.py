@@ -74,10 +74,11 @@ class Config:
     epsilon : float
         Probability that ``act`` explores at random, [0, 1].
     alpha : float
-        A split by a feature that is new to the tree is kept if its corrected p-value is below this,
-        (0, 1].
+        The probability that the tree ever takes up a feature while there is nothing to learn, at
+        most, (0, 1]: all learning steps share it.
     alpha_known : float
-        The same for a feature that the tree tests already, (0, 1]; below ``alpha`` without effect.
+        A split by a feature that the tree tests already is kept if its corrected p-value is below
+        this, (0, 1]; below the share of ``alpha`` without effect.
     tolerance : float
         Of a batch solver's values, in units of reward, (0, 1e12].
     learning_rate : float
@@ -107,8 +108,8 @@ class Config:
     explore: Explore = "directed"
     discount: float = 0.9
     epsilon: float = 0.9
-    alpha: float = 0.0001
-    alpha_known: float = 0.1
+    alpha: float = 0.01
+    alpha_known: float = 1.0
     tolerance: float = 0.01
     learning_rate: float = 0.1
     optimistic_value: float = 0.0

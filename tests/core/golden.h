@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GOLDEN_COLUMNS_MAX 5
+#define GOLDEN_COLUMNS_MAX 6
 
 typedef struct golden {
     const char *name;

@@ -17,6 +17,7 @@
 #define ONE_DEGREE_RELATIVE 6e-7
 #define CRITICAL_RELATIVE 3e-6
 #define TABLE_RELATIVE 4e-7
+#define FISHER_ERROR 4e-6 /* of ln p, in units of 1 - ln p */
 
 static void test_survival(void **state) {
     (void)state;
@@ -148,6 +149,38 @@ static void test_table_arguments(void **state) {
     assert_true(x == 0.0f);
 }
 
+static void test_fisher(void **state) {
+    (void)state;
+    golden table = golden_open("fisher_table.csv", 6);
+    while (golden_next(&table)) {
+        float p = -1.0f;
+        float log_p = 1.0f;
+        assert_int_equal(rlvc_fisher_table((uint32_t)table.row[0], (uint32_t)table.row[1],
+                                           (uint32_t)table.row[2], (uint32_t)table.row[3], &p,
+                                           &log_p),
+                         RLVC_OK);
+        const double bound = FISHER_ERROR * (1.0 - table.row[5]);
+        if (!(fabs((double)log_p - table.row[5]) <= bound && log_p <= 0.0f))
+            fail_msg("%s:%d: log_p is %g", table.name, table.line, (double)log_p);
+        if (table.row[4] >= 1e-30)
+            golden_close(&table, "p", p, table.row[4], 2.0 * bound);
+    }
+}
+
+static void test_fisher_arguments(void **state) {
+    (void)state;
+    const uint32_t most = INT32_MAX;
+    float p = 7.0f;
+    float log_p = 7.0f;
+    assert_int_equal(rlvc_fisher_table(most, 1u, 0u, 0u, &p, &log_p), RLVC_E_RANGE);
+    assert_int_equal(rlvc_fisher_table(UINT32_MAX, 1u, UINT32_MAX, 1u, &p, NULL), RLVC_E_RANGE);
+    assert_int_equal(rlvc_fisher_table(26u, 26u, 26u, 26u, &p, &log_p), RLVC_E_RANGE);
+    assert_true(p == 7.0f && log_p == 7.0f);
+    assert_int_equal(rlvc_fisher_table(25u, 25u, 25u, 25u, NULL, NULL), RLVC_OK);
+    assert_int_equal(rlvc_fisher_table(0u, 0u, most, 0u, &p, &log_p), RLVC_OK);
+    assert_true(p == 1.0f && log_p == 0.0f);
+}
+
 static void test_same_bits_everywhere(void **state) {
     (void)state;
     uint32_t all = DIGEST_START;
@@ -163,8 +196,10 @@ static void test_same_bits_everywhere(void **state) {
         all = digest(all, x);
         assert_int_equal(rlvc_chi2_table(degrees, 1000u, 77u * degrees, 5u, &x), RLVC_OK);
         all = digest(all, x);
+        assert_int_equal(rlvc_fisher_table(degrees % 9u, 8u, degrees, 99u, NULL, &x), RLVC_OK);
+        all = digest(all, x);
     }
-    const uint32_t pinned = 0xc98428c6u;
+    const uint32_t pinned = 0xb721effcu;
     if (all != pinned)
         fail_msg("the digest is 0x%08xu, not 0x%08xu", (unsigned)all, (unsigned)pinned);
 }
@@ -179,6 +214,8 @@ int main(void) {
         cmocka_unit_test(test_critical_arguments),
         cmocka_unit_test(test_table),
         cmocka_unit_test(test_table_arguments),
+        cmocka_unit_test(test_fisher),
+        cmocka_unit_test(test_fisher_arguments),
         cmocka_unit_test(test_same_bits_everywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

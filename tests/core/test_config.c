@@ -63,7 +63,7 @@ static void test_defaults(void **state) {
     assert_int_equal(config.continuing, 0);
     const float numbers[] = {config.discount,  config.epsilon,       config.alpha,
                              config.alpha_known, config.tolerance, config.learning_rate, config.optimistic_value};
-    const float expected[] = {0.9f, 0.9f, 0.0001f, 0.1f, 0.01f, 0.1f, 0.0f};
+    const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f, 0.0f};
     assert_memory_equal(numbers, expected, sizeof expected);
 }
 

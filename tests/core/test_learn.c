@@ -49,16 +49,17 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.untried = l->solver % 2u;
     agent->config.epsilon = l->criterion == RLVC_CRITERION_RETURNS ? 0.5f : 0.9f;
     agent->config.explore = l->criterion == RLVC_CRITERION_RESIDUAL; /* directed, or uniform */
-    agent->config.capacity = 160;
+    agent->config.capacity = 300;
+    agent->config.alpha = 1.0f;
     agent->config.alpha_known = 0.3f;
     agent->config.successors = l->form != OWN_ORACLE && l->score != RLVC_SCORE_GINI;
     agent->config.features_at_once = agent->config.successors ? 6 : 2;
     player_init(agent);
     for (uint32_t i = 0; i < steps; i++) {
-        player_play(agent, 130);
+        player_play(agent, 240);
         player_learn(agent, RLVC_BUDGET_UNBOUNDED, NULL);
     }
-    player_play(agent, 130);
+    player_play(agent, 240);
     player_save(agent);
 }
 
@@ -134,7 +135,8 @@ static void test_every_callback_fails(void **state) {
             if (memcmp(p.block, other.block, sizeof p.block) != 0)
                 fail_msg("another result after callback %u failed", (unsigned)n);
         }
-        for (uint64_t n = 3; n < 9u; n++) {
+        /* A sample is looked at by all features of a block at once: so many calls in a row must succeed. */
+        for (uint64_t n = p.config.features_at_once + 1u; n < 11u; n++) {
             learn_with_failures(n, n % 2u == 0 ? RLVC_BUDGET_UNBOUNDED : 97);
             assert_memory_equal(p.block, other.block, sizeof p.block);
         }
@@ -175,7 +177,7 @@ static void test_too_many_candidates(void **state) {
     player_enter_world(&p, BATCH);
     p.domain.candidates = too_many;
     player_init(&p);
-    player_play(&p, 200);
+    player_play(&p, 280);
     assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_E_CALLBACK);
     assert_int_equal(rlvc_agent_check(p.agent), RLVC_OK);
 }
@@ -215,6 +217,33 @@ static void test_candidates_of_what_follows(void **state) {
     }
 }
 
+/* A table of several words, cut between them. */
+static void test_slices_of_what_follows(void **state) {
+    (void)state;
+    const rlvc_choice choice = {0, 1};
+    rlvc_progress progress;
+    player_enter_world(&p, BATCH);
+    p.config.successors = 1;
+    player_init(&p);
+    for (uint32_t i = 0; i < 250u; i++) {
+        unsigned char percept = (unsigned char)(i / 10u % 2u);
+        if (i == 0)
+            assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
+        assert_int_equal(rlvc_observe(p.agent, choice, 0.0f, &percept, RLVC_GOES_ON), RLVC_OK);
+    }
+    player_save(&p);
+    player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
+    assert_true(player_stats(&p).classes > 1u);
+    memcpy(other.block, p.block, sizeof p.block);
+    for (uint32_t budget = RLVC_BUDGET_MIN; budget < RLVC_BUDGET_MIN + 8u; budget++) {
+        player_restore(&p);
+        do {
+            assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
+        } while (!progress.done);
+        assert_memory_equal(p.block, other.block, sizeof p.block);
+    }
+}
+
 /* ------------------------------------------------------------------ forms of one domain */
 
 /* Feature detector or batch detector, and blocks of any size: the same tree. */
@@ -227,9 +256,10 @@ static void test_detectors_and_blocks(void **state) {
         p.config.score = (uint8_t)(i / 8u % SCORES);
         p.config.criterion = (uint8_t)(i / 24u);
         p.config.epsilon = 0.5f;
+        p.config.alpha = 1.0f;
         player_init(&p);
         for (int step = 0; step < 2; step++) {
-            player_play(&p, 200);
+            player_play(&p, 280);
             player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
         }
         assert_true(player_stats(&p).classes > 1u);
@@ -316,9 +346,9 @@ static void test_observe_while_learning(void **state) {
         player_result_of(&p, &got);
         assert_memory_equal(&got, &expected, sizeof got);
         assert_true(observed > 3u);
-        assert_int_equal(player_stats(&p).interactions, 130u + observed);
+        assert_int_equal(player_stats(&p).interactions, 240u + observed);
         assert_int_equal(player_stats(&p).stored,
-                         l.criterion == RLVC_CRITERION_RETURNS ? 0 : 130u + observed);
+                         l.criterion == RLVC_CRITERION_RETURNS ? 0 : 240u + observed);
     }
 }
 
@@ -435,6 +465,7 @@ int main(void) {
         cmocka_unit_test(test_callbacks_call_back),
         cmocka_unit_test(test_too_many_candidates),
         cmocka_unit_test(test_candidates_of_what_follows),
+        cmocka_unit_test(test_slices_of_what_follows),
         cmocka_unit_test(test_detectors_and_blocks),
         cmocka_unit_test(test_every_slot_terminated),
         cmocka_unit_test(test_full_tree),

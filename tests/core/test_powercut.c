@@ -16,6 +16,8 @@
 #include "snapshots.h"
 #include "state.h"
 
+#define HELD 48u
+
 static unsigned char older[BLOCK_BYTES], newer[BLOCK_BYTES];
 static player_result expected, got;
 
@@ -63,13 +65,19 @@ static int cut_at(const rlvc_store *store, uint32_t cycle, uint64_t cut, uint32_
     return status != RLVC_OK;
 }
 
+/* An agent whose small ring is full before its first step, which takes evidence the most lightly. */
+static void prepare_full(void) {
+    prepare_holding(HELD);
+    player_play(&p, HELD);
+}
+
 static void cut_everywhere(int flash, uint32_t bytes) {
     static medium before;
     uint32_t points = 0, early = 0;
-    prepare_holding(16);
+    prepare_full();
     live_on(&p, 0, &expected);
     assert_true(player_stats(&p).classes > 1);
-    prepare_holding(16);
+    prepare_full();
     rlvc_store store = medium_store(&m, &p.config, &p.domain, flash);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     image_of(0, newer);

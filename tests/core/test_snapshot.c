@@ -103,7 +103,7 @@ static void test_resume_anywhere(void **state) {
                 player_play(&p, 60);
             assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
             steps += progress.done;
-            if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 20u)
+            if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 100u)
                 player_play(&p, 1);
             if (n % 3 == 0 || k.solver == RLVC_SOLVER_Q_LEARNING ||
                 k.solver == RLVC_SOLVER_SARSA) {

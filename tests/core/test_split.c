@@ -53,8 +53,11 @@ static void test_tie_of_actions(void **state) {
         begin(2, at_once);
         for (uint8_t action = 0; action < 2u; action++) {
             const unsigned char bit = action == 0 ? 16 : 2; /* bit 4 after action 0, 1 after 1 */
-            add(20, 0, action, 0.0f);
-            add(20, bit, action, 5.0f);
+            const unsigned char other = 18 - bit;            /* says nothing */
+            add(10, 0, action, 0.0f);
+            add(10, other, action, 0.0f);
+            add(10, bit, action, 5.0f);
+            add(10, 18, action, 5.0f);
         }
         expect_root(4, 0);
     }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes chi2.csv, chi2_critical.csv, chi2_table.csv and real.csv beside itself.
+"""Makes chi2.csv, chi2_critical.csv, chi2_table.csv, fisher_table.csv and real.csv beside itself.
 
 The numbers come from mpmath with 60 digits and are checked against SciPy where doubles can hold them.
 Every argument is a binary32 number, written so that it reads back exactly.
@@ -84,6 +84,41 @@ def table():
         yield a, b, c, d, float(x)
 
 
+def hypergeometric(x, r, c, n):
+    f = mpmath.factorial
+    return f(r) * f(n - r) * f(c) * f(n - c) / (f(n) * f(x) * f(r - x) * f(c - x) * f(n - r - c + x))
+
+
+def fisher():
+    """All tables of up to 9 samples in steps, and larger ones up to the greatest expected count, near the
+    mean and far off it. Equal is what differs by 1e-4."""
+    tables = [(a, b, c, d) for a in (0, 1, 3) for b in (0, 1, 2) for c in (0, 2) for d in (1, 3)]
+    rng = numpy.random.default_rng(6)
+    while len(tables) < 300:
+        n = int(2 ** rng.uniform(2, 12))
+        r, c = (int(x) for x in rng.integers(1, n, 2))
+        if min(r, n - r) * min(c, n - c) <= 25 * n:
+            low, high = max(0, r + c - n), min(r, c)
+            near = int(rng.hypergeometric(r, n - r, c))
+            x = int(rng.integers(low, high + 1)) if len(tables) % 3 == 0 else near
+            tables.append((x, r - x, c - x, n - r - c + x))
+    most = 2**31 - 1
+    tables += [(3, 7, 12, most - 22), (0, 9, 2**28, 2**30), (0, 0, 3, 4), (9, 0, 0, most - 9),
+               (25, 25, 25, 25), (40, 10, 10, 40), (49, 1, 1, 49)]
+    for a, b, c, d in tables:
+        n, rows, columns = a + b + c + d, a + b, a + c
+        if rows in (0, n) or columns in (0, n):
+            yield a, b, c, d, 1.0, 0.0
+            continue
+        own, p = hypergeometric(a, rows, columns, n), mpmath.mpf(0)
+        for x in range(max(0, rows + columns - n), min(rows, columns) + 1):
+            other = hypergeometric(x, rows, columns, n)
+            p += other if other <= own * (1 + mpmath.mpf("1e-4")) else 0
+        if n < 5000:
+            assert abs(scipy.stats.fisher_exact([[a, b], [c, d]])[1] / p - 1) < 1e-6
+        yield a, b, c, d, float(p) if p > LEAST else 0.0, float(mpmath.log(p)) if p < 1 else 0.0
+
+
 def real():
     """Logarithms over the normal floats, dense about 1; exp down to the least float."""
     functions = {"ln": mpmath.log, "sqrt": mpmath.sqrt}
@@ -112,5 +147,6 @@ if __name__ == "__main__":
     write("chi2.csv", ["degrees", "statistic", "p (0 if subnormal)", "log_p (0 if subnormal)"],
           survival())
     write("chi2_critical.csv", ["degrees", "p", "statistic"], critical())
+    write("fisher_table.csv", ["a", "b", "c", "d", "p (0 if subnormal)", "log_p"], fisher())
     write("chi2_table.csv", ["a", "b", "c", "d", "statistic"], table())
     write_real()

@@ -5,6 +5,7 @@ It follows the paper (sections cited) and the rules that the core's headers stat
 read, in double precision and without a thought for memory or time. Percepts are vectors of bits, features
 are the numbers of bits.
 """
+import functools
 from dataclasses import dataclass
 
 import numpy
@@ -132,6 +133,43 @@ def pearson(a, b, c, d):
     return numpy.where(product > 0, n * (a * d - b * c) ** 2 / numpy.maximum(product, 1.0), 0.0)
 
 
+def expects_below(table, count):
+    """Is a cell expected to hold fewer than that?"""
+    a, b, c, d = (int(x) for x in table)
+    return min(a + b, c + d) * min(a + c, b + d) < count * (a + b + c + d)
+
+
+@functools.lru_cache(None)
+def fisher(table, same=1.0):
+    """Fisher's p-value, two-sided; with `same` 1/2 the mid-p-value."""
+    a, b, c, d = (int(x) for x in table)
+    x = numpy.arange(max(0, a - d), min(a + b, a + c) + 1)
+    log_pmf = scipy.stats.hypergeom.logpmf(x, a + b + c + d, a + b, a + c)
+    ratio = numpy.exp(log_pmf - log_pmf[a - x[0]])
+    weight = numpy.where(ratio > 1.0001, 0.0, numpy.where(ratio * 1.0001 < 1, 1.0, same))
+    return min(1.0, float(numpy.exp(log_pmf) @ weight))
+
+
+def table_log_p(table):
+    """Of one table."""
+    return (numpy.log(fisher(tuple(table))) if expects_below(table, 5)
+            else scipy.stats.chi2.logsf(float(pearson(*table)), 1))
+
+
+def normal_quantile(log_p):
+    """|z| of a two-sided p-value, by Abramowitz and Stegun's 26.2.23."""
+    t = numpy.sqrt(2 * (numpy.log(2) - log_p))
+    return t - numpy.polyval([0.010328, 0.802853, 2.515517], t) / numpy.polyval(
+        [0.001308, 0.189269, 1.432788, 1], t)
+
+
+def table_statistic(table):
+    """What a table adds to a sum over several, of one degree of freedom."""
+    if expects_below(table, 1):
+        return normal_quantile(numpy.log(fisher(tuple(table), 0.5))) ** 2
+    return float(pearson(*table))
+
+
 def cutpoints(targets, gap):
     """Of sorted targets: the places i, between i - 1 and i, where a new cluster begins; a cluster holds
     what is within `gap` of its lowest."""
@@ -151,8 +189,11 @@ class Candidate:
     feature: int
     evidence: float
     score: float
-    statistic: float
     table: tuple
+
+    @property
+    def statistic(self):
+        return table_statistic(self.table)
 
 
 class Group:
@@ -173,10 +214,10 @@ class Group:
         b = self.cuts - a
         c = self.present[-1, feature] - a
         d = self.samples - self.cuts - c
-        found, statistics = scores(kind, a, b, c, d), pearson(a, b, c, d)
+        found = scores(kind, a, b, c, d)
         evidence = found if kind == CHI2 else found * self.samples
         return [Candidate(self.action, feature, *numbers)
-                for numbers in zip(evidence, found, statistics, zip(a, b, c, d))]
+                for numbers in zip(evidence, found, zip(a, b, c, d))]
 
 
 @dataclass
@@ -195,8 +236,8 @@ class Search:
         """Two winners are compared where there is more than one group."""
         return numpy.log(2) if len(self.groups) > 1 else 0.0
 
-    def log_tests_alone(self, action):
-        cuts = next(len(g.cuts) for g in self.groups if g.action == action)
+    def log_tests_alone(self):
+        cuts = sum(len(g.cuts) for g in self.groups)
         return self.log_features + numpy.log(cuts) + self.correction()
 
     def log_tests_together(self, feature):
@@ -204,8 +245,7 @@ class Search:
         return self.log_features + numpy.log(cuts).sum() + self.correction()
 
     def log_p_alone(self, candidate):
-        log_p = scipy.stats.chi2.logsf(candidate.statistic, 1)
-        return min(0.0, log_p + self.log_tests_alone(candidate.action))
+        return min(0.0, table_log_p(candidate.table) + self.log_tests_alone())
 
     def log_p_together(self, feature, chosen):
         """For one candidate of each group."""
@@ -230,6 +270,23 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
     return Search(alone, together, groups, numpy.log(max(len(features), 1)))
 
 
+def far(statistic, degrees):
+    """How far beyond chance a sum is, by Chernoff's bound."""
+    excess = statistic - degrees
+    return excess - degrees * numpy.log(statistic / degrees) if excess > 0 else 0.0
+
+
+def log_pairs(f, g, features):
+    """What a pair's p-value is corrected by: the pairs g = f have half of the level."""
+    return numpy.log(2 * features * (1 if f == g else features - 1))
+
+
+def level(alpha, step, successors):
+    """At which a feature new to the tree must pass."""
+    d = (step + 1).bit_length()
+    return alpha / (d * (d + 1) * 2 ** (d - 1)) / (1 + successors)
+
+
 def follow(percepts, nexts, actions, action_count, min_samples):
     """Looks for a feature f of s that s' depends on: for each pair (g, f) that has a table, in the order
     in which ties go, the sum of statistics over the actions, and its degrees of freedom."""
@@ -242,9 +299,8 @@ def follow(percepts, nexts, actions, action_count, min_samples):
         for j, i in numpy.ndindex(len(g), len(f)):
             if 0 < f[i] < n and 0 < g[j] < n:
                 b = both[i, j]
-                statistic = float(pearson(b, f[i] - b, g[j] - b, n - f[i] - g[j] + b))
-                before = sums.get((j, i), (0.0, 0))
-                sums[j, i] = before[0] + statistic, before[1] + 1
+                more = table_statistic((b, f[i] - b, g[j] - b, n - f[i] - g[j] + b))
+                sums[j, i] = tuple(numpy.add(sums.get((j, i), (0.0, 0)), (more, 1)))
     return sums
 
 

@@ -4,6 +4,8 @@
 Where two candidates are as good to within the core's rounding, the core may take either, and method.py
 goes on with its choice; but of tables that are the same it must take the first.
 """
+import itertools
+
 import numpy
 import pytest
 import scipy.stats
@@ -106,7 +108,9 @@ class Learner:
             for class_id in range(len(self.tree.splits) + 1):
                 split = left[0] if left and left[0][0].class_id == class_id else None
                 known = [bit for _, bit in self.tree.splits + splits]
-                if self.compare(look((here == class_id) & ~numpy.isnan(targets)), split, known):
+                mine = (here == class_id) & ~numpy.isnan(targets)
+                strict = method.level(self.config.alpha, step, self.config.successors)
+                if self.compare(look(mine), split, known, strict):
                     assert split[0].step == step
                     splits.append((class_id, left.pop(0)[1]))
             for class_id, _ in splits:
@@ -118,12 +122,12 @@ class Learner:
 
     # -------------------------------------------------------------- one class
 
-    def compare(self, allowed, split, known):
+    def compare(self, allowed, split, known, strict):
         """Whether the class is split; fails if the core's answer is not one that the method allows.
         Less evidence is asked of features that the tree knows."""
 
         def beyond(x, sign):
-            strict, mild = self.config.alpha, max(self.config.alpha, self.config.alpha_known)
+            mild = max(strict, self.config.alpha_known)
             level = numpy.log(mild if x["bit"] in known else strict)
             return x["log_p"] < level + sign * NUMBERS * (1 + abs(level))
 
@@ -169,7 +173,7 @@ class Learner:
             if table not in seen:
                 options.append({"bit": x.feature, "action": x.action, "score": x.score,
                                 "samples": samples[x.action], "log_p": found.log_p_alone(x),
-                                "log_tests": found.log_tests_alone(x.action)})
+                                "log_tests": found.log_tests_alone()})
             seen.add(table)
         return options
 
@@ -187,7 +191,7 @@ class Learner:
             if tables in seen and all(len(group) == 1 for group in choices):
                 continue
             seen.add(tables)
-            for chosen in extremes(choices):
+            for chosen in combinations(choices):
                 options.append({"bit": feature, "action": self.config.actions, "samples": samples,
                                 "score": sums[feature] / samples,
                                 "log_tests": found.log_tests_together(feature),
@@ -196,13 +200,15 @@ class Learner:
 
     def following(self, sums, samples):
         """The split by what follows that the method allows; several if rounding cannot tell."""
-        most = max((statistic for statistic, _ in sums.values()), default=0.0)
+        log_tests = {pair: method.log_pairs(*pair, self.agent.bits) for pair in sums}
+        evidence = {pair: method.far(*x) - 2 * log_tests[pair] for pair, x in sums.items()}
+        most = max(evidence.values(), default=0.0)
         options = []
-        for (_, bit), (statistic, degrees) in sorted(sums.items()):
-            if statistic >= most * (1 - NEAR) > 0:
-                log_p = scipy.stats.chi2.logsf(statistic, degrees) + numpy.log(len(sums))
-                options.append({"bit": bit, "action": self.config.actions + 1, "samples": samples,
-                                "score": statistic / samples, "log_tests": numpy.log(len(sums)),
+        for pair, (statistic, degrees) in sorted(sums.items()):
+            if evidence[pair] >= most - NEAR * (1 + statistic):
+                log_p = scipy.stats.chi2.logsf(statistic, degrees) + log_tests[pair]
+                options.append({"bit": pair[1], "action": self.config.actions + 1, "samples": samples,
+                                "score": statistic / samples, "log_tests": log_tests[pair],
                                 "log_p": min(0.0, log_p)})
         return options
 
@@ -238,11 +244,10 @@ def best_cutpoints(candidates):
     return list(best.values())
 
 
-def extremes(choices):
-    """One choice a group, or two if in some group there are several: the least and the most."""
-    least = [min(group, key=lambda x: x.statistic) for group in choices]
-    most = [max(group, key=lambda x: x.statistic) for group in choices]
-    return [least] if least == most else [least, most]
+def combinations(choices):
+    """One cutpoint a group, in all ways: those of one group differ in what they say of their table."""
+    differing = [list({x.statistic: x for x in group}.values()) for group in choices]
+    return list(itertools.product(*differing))
 
 
 # ------------------------------------------------------------------ random databases

@@ -20,7 +20,7 @@ FLOORS = {
     "export_descriptors": 4, "export_thresholds": 4, "samples": 4, "solver": 4, "split": 4,
     "aliasing": 3, "compact": 3, "explore": 3, "export_tree": 3, "incremental": 3,
     "predecessors": 3, "spread": 3,
-    "cutpoint": 2, "returns": 2, "tree": 2, "values": 2,
+    "cutpoint": 2, "fisher": 2, "returns": 2, "tree": 2, "values": 2,
     "chi2": 1, "fewest": 1, "log": 1, "replay": 1, "score": 1, "slots": 1, "sort": 1, "text": 1,
     "arena": 0, "bytes": 0, "crc": 0, "mean": 0, "ones": 0, "real": 0, "rng": 0, "solvers": 0,
     "status": 0,

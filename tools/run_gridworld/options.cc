@@ -27,19 +27,19 @@ struct Defaults {
     uint32_t capacity;
 };
 
-constexpr Defaults returns_defaults{10000, 20, 0.8f, 0.0001f, 0.0001f, 0, 0};
-constexpr Defaults small_defaults{2500, 25, 0.9f, 0.0001f, 0.1f, 1, 1200};
-constexpr Defaults small_incremental_defaults{20000, 200, 0.3f, 0.0001f, 0.1f, 1, 1200};
-constexpr Defaults large_defaults{0, 60, 1.0f, 0.00001f, 0.00001f, 0, 0};
+constexpr Defaults returns_defaults{10000, 20, 0.8f, 0.05f, 0.0001f, 0, 0};
+constexpr Defaults small_defaults{2500, 25, 0.9f, 0.01f, 1.0f, 1, 1200};
+constexpr Defaults small_incremental_defaults{20000, 200, 0.3f, 0.01f, 1.0f, 1, 1200};
+constexpr Defaults large_defaults{0, 60, 1.0f, 0.01f, 0.00001f, 0, 0};
 constexpr uint32_t small_cells = 46;
 constexpr uint32_t large_interactions_a_cell = 320;
 constexpr uint32_t classes_min = 64, classes_max = 65535;
 
 constexpr char defaults_table[] = R"(Defaults by criterion    interactions  steps  epsilon  alpha    known    successors  capacity
-  returns                10000 each       20  0.8      0.0001   0.0001   no          a step's
-  residual, small maze   2500             25  0.9      0.0001   0.1      yes         1200
-  ... by increments      20000           200  0.3      0.0001   0.1      yes         1200
-  residual, any other    320 a cell       60  1        0.00001  0.00001  no          all
+  returns                10000 each       20  0.8      0.05     0.0001   no          a step's
+  residual, small maze   2500             25  0.9      0.01     1        yes         1200
+  ... by increments      20000           200  0.3      0.01     1        yes         1200
+  residual, any other    320 a cell       60  1        0.01     0.00001  no          all
 A maze is small if it has at most 46 free cells, as Sutton's has, and no slip. Of the library's solvers
 q-learning and sarsa work by increments; in any other maze, too, by epsilon 0.3.
 
@@ -99,12 +99,12 @@ void add_learning(CLI::App &binary, Options &options) {
         ->check(number(0, 1));
     binary
         .add_option("--alpha", options.alpha,
-                    "a split is kept if its corrected p-value is below this ...")
+                    "probability that a run with nothing to learn takes up a bit, at most; and")
         ->type_name("P")
         ->check(number(0, 1, Ends::open_below));
     binary
         .add_option("--alpha-known", options.alpha_known,
-                    "... or below this, if the tree tests its bit elsewhere")
+                    "a split by a bit that the tree tests already has a corrected p-value below this")
         ->type_name("P")
         ->check(number(0, 1, Ends::open_below));
     binary

@@ -86,12 +86,17 @@ typedef struct rlvc_config {
     uint8_t reserved;          /* 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
     float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
-    float alpha;               /* a split by a feature that is new to the tree is kept if its p-value,
-                                  corrected for the number of tests tried, is below this, (0, 1].
-                                  Default 0.0001 */
-    float alpha_known;         /* the same for a feature that the tree holds already, and that has so
-                                  proved to be no noise: less evidence is asked of it, (0, 1]; below
-                                  alpha it has no effect. Default 0.1 */
+    float alpha;               /* the probability that the tree ever takes up a feature while there is
+                                  nothing to learn, at most: all learning steps, and the tests tried in
+                                  them, share it (SPEC.md), and a split by a feature that is new to the
+                                  tree must pass at its share, (0, 1]. It assumes that the samples of
+                                  one action are independent of each other, and nothing about the looks
+                                  at the growing database. Once the tree has classes, it is the same
+                                  probability for each of them. Default 0.01 */
+    float alpha_known;         /* a split by a feature that the tree holds already, and that has so proved
+                                  to be no noise, must only pass at this level at each look, (0, 1]; below
+                                  alpha's share it has no effect. Default 1: fewer such splits by chance
+                                  than one a look are expected */
     float tolerance;           /* in units of reward, (0, RLVC_REWARD_MAX]: a batch solver that ends by
                                   itself leaves values within this of the fixed point, plus what
                                   binary32 costs: at most 1e-6 max|V| / (1 - discount). (Policy
@@ -300,7 +305,8 @@ typedef struct rlvc_split {
     float log_tests;    /* natural logarithm of the number of tests that log_p is corrected by */
     float score;        /* of the split, as config.score measures it (together: the mean over the
                            samples; of chi-square too; by what followed: always of chi-square) */
-    float log_p;        /* natural logarithm of the corrected p-value */
+    float log_p;        /* natural logarithm of the p-value, corrected by the number of tests in this
+                           class, but not by alpha's sharing */
 } rlvc_split;
 
 /* @param split, feature each optional; feature gets feature_bytes

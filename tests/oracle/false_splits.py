@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""How often a tree grows although there is nothing to learn.
+
+Percepts are independent random bits, rewards are random and independent of percept and action, and the agent
+learns again and again from a growing database: whatever it splits by is chance. config.alpha is the
+probability, at most, that a run grows any test.
+
+RLVC_TESTING_LIB=build/shipped/core/librlvc_testing.so tests/oracle/false_splits.py
+"""
+import argparse
+
+import numpy
+
+import binding
+
+# Rewards, and how often a bit is 1: rare rewards and rare bits make tables of small counts.
+TASKS = {
+    "coin": (lambda rng: float(rng.integers(2)), 0.5),
+    "gauss": (lambda rng: float(numpy.float32(rng.normal())), 0.5),
+    "rare reward": (lambda rng: 100.0 if rng.random() < 0.02 else -1.0, 0.5),
+    "rare bits": (lambda rng: float(rng.integers(2)), 0.03),
+    "seldom bits": (lambda rng: float(rng.integers(2)), 0.1),
+}
+
+
+def grows(task, seed, interactions, every, bits=18, actions=4, **fields):
+    """Whether a run takes up any test."""
+    reward, share = TASKS[task]
+    rng = numpy.random.default_rng(seed)
+    agent = binding.Agent(bits, actions, capacity=interactions, seed=seed, **fields)
+    percepts = (rng.random((interactions + 1, bits)) < share).astype(numpy.uint8)
+    agent.begin(percepts[0])
+    for t in range(1, interactions + 1):
+        agent.observe(*agent.act(), reward(rng), percepts[t], binding.GOES_ON)
+        if t % every == 0:
+            agent.learn()
+            if agent.stats().classes > 1:
+                return True
+    return False
+
+
+def count(task, runs, *arguments, **fields):
+    return sum(grows(task, seed, *arguments, **fields) for seed in range(runs))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Counts the runs that grow a test by chance.")
+    parser.add_argument("--runs", type=int, default=200)
+    parser.add_argument("--interactions", type=int, default=2500)
+    parser.add_argument("--every", type=int, default=100, help="interactions from one learning step to the next")
+    parser.add_argument("--alpha", type=float, default=0.05, help="the rate that is stated (0.05)")
+    options = parser.parse_args()
+    for task in TASKS:
+        grown = count(task, options.runs, options.interactions, options.every, alpha=options.alpha)
+        print(f"{task:12} {grown:4} of {options.runs} runs grew a test", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+"""The rate of false splits, in short runs: false_splits.py measures it in long ones."""
+import pytest
+
+import false_splits
+
+RUNS, INTERACTIONS, EVERY = 40, 600, 50
+
+
+@pytest.mark.parametrize("task", false_splits.TASKS)
+def test_seldom(task):
+    """Six or more of 40 runs at 0.05 would come about once in a hundred times, were the rate just that."""
+    assert false_splits.count(task, RUNS, INTERACTIONS, EVERY, alpha=0.05) < 6
+
+
+def test_they_would_be_seen():
+    assert false_splits.count("coin", RUNS, INTERACTIONS, EVERY, alpha=1.0) > RUNS // 10
