@@ -2,6 +2,7 @@
 /* The agent: making one, acting and observing (section 4.2.1, part 2), and asking it. */
 #include "rlvc/agent.h"
 
+#include "config.h"
 #include "incremental.h"
 #include "state.h"
 #include <string.h>
@@ -28,7 +29,7 @@ static void carve(rlvc_agent *agent, rlvc_arena *arena) {
 rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
     if (!bytes)
         return RLVC_E_NULL;
-    rlvc_status status = rlvc_config_check(config, domain, NULL);
+    rlvc_status status = rlvc_config_status(config, domain);
     rlvc_arena arena = {NULL, 0};
     if (status == RLVC_OK) {
         rlvc_agent agent;
@@ -255,7 +256,7 @@ rlvc_status rlvc_agent_check(const rlvc_agent *agent) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
-    int sound = rlvc_config_check(&agent->config, &agent->domain, NULL) == RLVC_OK &&
+    int sound = rlvc_config_status(&agent->config, &agent->domain) == RLVC_OK &&
                 rlvc_tree_check(&agent->tree) &&
                 rlvc_replay_check(&agent->replay, agent->config.actions, agent->tree.classes) &&
                 rlvc_values_check(&agent->values, agent->tree.classes) &&

@@ -5,6 +5,7 @@
  * is loaded decides how much there is to come, it is checked at once; the rest is checked at the end. */
 #include "rlvc/snapshot.h"
 
+#include "config.h"
 #include "resume.h"
 #include "slots.h"
 #include <string.h>
@@ -207,7 +208,7 @@ rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *dom
     if (!bytes)
         return RLVC_E_NULL;
     *bytes = 0;
-    rlvc_status status = rlvc_config_check(config, domain, NULL);
+    rlvc_status status = rlvc_config_status(config, domain);
     if (status != RLVC_OK)
         return status;
     uint64_t size = largest(config, domain);

@@ -2,9 +2,9 @@
 /* The search for the best split of a class: see split.h.
  *
  * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates at a
- * time (PROPOSE), each group that takes part has the block's columns made (DETECT), scanned (SCAN) and
- * weighed (WEIGH); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
- * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
+ * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
+ * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
+ * group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
  * (TEST_ALONE, TEST_TOGETHER). */
 #include "split.h"
 
@@ -13,20 +13,7 @@
 #include "score.h"
 #include <string.h>
 
-enum {
-    SORT,
-    MARK,
-    PROPOSE,
-    DETECT,
-    SCAN,
-    CLOSE,
-    ASK,
-    ANSWER,
-    TEST_ALONE,
-    TEST_TOGETHER,
-    DONE,
-    WEIGH
-};
+enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, TEST_ALONE, TEST_TOGETHER, DONE };
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
@@ -278,13 +265,12 @@ static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
     }
 }
 
-/* Takes the result of one column and goes on to the next, or to the next group. Returns the units used. */
-static uint32_t close_column(rlvc_search *search, const rlvc_searching *searching) {
+/* Takes the result of one column and goes on to the next, or to the next group. */
+static void close_column(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_workspace *space = searching->space;
     const rlvc_group *group = &space->group[search->action];
     const rlvc_cut *found = &search->inner.scan.best;
     rlvc_pool *pool = &space->pool[search->column];
-    uint32_t used = 1;
     if (found->present > 0 && found->present < size_of(group)) {
         pool->degrees++;
         pool->log_tests += rlvc_ln((float)group->cuts);
@@ -293,17 +279,14 @@ static uint32_t close_column(rlvc_search *search, const rlvc_searching *searchin
         rlvc_single weighed = weigh(search, searching, found, size_of(group));
         pool->evidence += weighed.evidence;
         pool->statistic += rlvc_table_statistic(&weighed.table);
-        used = rlvc_table_small(&weighed.table) ? RLVC_TEST_UNITS : 1u;
         keep_best_alone(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
         open_column(search, searching, group);
-        search->phase = SCAN;
-    } else {
-        search->action++;
-        next_group(search, space, DETECT, CLOSE);
+        return;
     }
-    return used;
+    search->action++;
+    next_group(search, space, DETECT, CLOSE);
 }
 
 /* All groups have seen the block: looks at feature `column` of it, together. A unit each. */
@@ -421,10 +404,7 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
     case SCAN:
         *used = rlvc_scan_step(&search->inner.scan, budget);
         if (search->inner.scan.done)
-            search->phase = WEIGH;
-        return RLVC_OK;
-    case WEIGH:
-        *used = close_column(search, searching);
+            close_column(search, searching);
         return RLVC_OK;
     case CLOSE:
         close_feature(search, searching->space);
@@ -470,7 +450,7 @@ rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *search
     } else if (search->phase == SCAN) {
         rlvc_scan_single(&search->inner.scan);
         if (search->inner.scan.done)
-            search->phase = WEIGH;
+            close_column(search, searching);
     } else {
         return advance(search, searching, RLVC_BUDGET_MIN, &used);
     }

@@ -147,8 +147,8 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, con
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for each
  * sample marked or detected (with up to 64 features; without detect(), for each feature of each sample),
- * what sorting and the scan of each column are charged, one for its table (RLVC_TEST_UNITS if that is
- * small: fisher.h), one for each feature of a block, and RLVC_TEST_UNITS for each of the two p-values.
+ * what sorting and the scan of each column are charged, one for each feature of a block, and
+ * RLVC_TEST_UNITS for each of the two p-values.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);

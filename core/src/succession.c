@@ -133,15 +133,6 @@ static float log_tests(const rlvc_succession *succession, const rlvc_follows *pa
     return rlvc_ln(2.0f * features * (pair->persists ? 1.0f : features - 1.0f));
 }
 
-/* How far from chance a sum x of d degrees of freedom is, corrected: by Chernoff's bound, the logarithm of
- * the p-value of x > d is at most (d ln(x / d) - (x - d)) / 2. */
-static float evidence(const rlvc_succession *succession, const rlvc_follows *pair) {
-    float d = (float)pair->degrees;
-    float excess = pair->statistic - d;
-    float far = excess > 0.0f ? excess - d * rlvc_ln(pair->statistic / d) : 0.0f;
-    return far - 2.0f * log_tests(succession, pair);
-}
-
 /* The sums of a pair are complete: goes on to the next pair. */
 static void close_pair(rlvc_succession *succession) {
     static const rlvc_follows nothing = {0.0f, 0.0f, 0, 0, 0};
@@ -149,7 +140,7 @@ static void close_pair(rlvc_succession *succession) {
     if (pair->degrees > 0) {
         pair->feature = succession->now;
         pair->persists = succession->now == succession->next;
-        pair->evidence = evidence(succession, pair);
+        pair->evidence = pair->statistic - 2.0f * log_tests(succession, pair);
         if (succession->best.degrees == 0 || pair->evidence > succession->best.evidence)
             succession->best = *pair;
     }
@@ -162,17 +153,15 @@ static void close_pair(rlvc_succession *succession) {
     enter(succession, ++succession->next < succession->features ? NEXT : TEST);
 }
 
-/* Weighs the table of one action. Returns the units used. */
-static uint32_t weigh(rlvc_succession *succession, const rlvc_workspace *space) {
+/* Weighs the table of one action. */
+static void weigh(rlvc_succession *succession, const rlvc_workspace *space) {
     const rlvc_group *group = &space->group[succession->action];
     uint32_t size = group->end - group->begin;
-    uint32_t used = TABLE_UNITS;
     uint32_t both = succession->with_both, now = succession->with_now, next = succession->with_next;
     if (now > 0 && now < size && next > 0 && next < size) {
         const rlvc_table table = {both, now - both, next - both, size - now - next + both};
         succession->sum.statistic += rlvc_table_statistic(&table);
         succession->sum.degrees++;
-        used = rlvc_table_small(&table) ? RLVC_TEST_UNITS : TABLE_UNITS;
     }
     succession->with_both = 0;
     succession->with_now = 0;
@@ -181,7 +170,6 @@ static uint32_t weigh(rlvc_succession *succession, const rlvc_workspace *space) 
     succession->phase = COUNT;
     if (++succession->action == space->actions)
         close_pair(succession);
-    return used;
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -199,7 +187,8 @@ static rlvc_status advance(rlvc_succession *succession, const rlvc_searching *se
         *used = WORD_UNITS * count(succession, searching->space, budget / WORD_UNITS);
         return RLVC_OK;
     case TABLE:
-        *used = weigh(succession, searching->space);
+        *used = TABLE_UNITS;
+        weigh(succession, searching->space);
         return RLVC_OK;
     default:
         *used = RLVC_TEST_UNITS;
@@ -212,9 +201,11 @@ static rlvc_status advance(rlvc_succession *succession, const rlvc_searching *se
 }
 
 static uint32_t needed(const rlvc_succession *succession) {
+    if (succession->phase == TEST)
+        return RLVC_TEST_UNITS;
     if (succession->phase == COUNT)
         return WORD_UNITS;
-    return succession->phase == TABLE || succession->phase == TEST ? RLVC_TEST_UNITS : 1u;
+    return succession->phase == TABLE ? TABLE_UNITS : 1u;
 }
 
 rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,

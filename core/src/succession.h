@@ -7,8 +7,9 @@
  * exhibits f and s' exhibits g (after a terminated interaction there is no s', which exhibits nothing). The
  * statistics of the actions' tables that have two rows and two columns (fisher.h) are added up, with a degree
  * of freedom each. The p-value of each pair is corrected by a number of pairs (Bonferroni), fewer where
- * g = f. The pair that is the least likely wins (as Chernoff bounds its p-value: that of each pair would cost too
- * much), of equals the lower g, then the lower f; and f is the split's feature.
+ * g = f. The pair wins whose statistic, less twice the logarithm of that number, is the largest (it goes
+ * nearly as the p-value, which for each pair would cost too much), of equals the lower g, then the lower f;
+ * and f is the split's feature.
  * If the class were one situation, then s' would not depend on f, whatever the distribution of either.
  *
  * The features are the default oracle's candidates for the class, which must fit into one block of columns. For
@@ -52,8 +53,8 @@ void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *se
                            const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for the
- * candidates, one for each call of exhibits(), two for each 64 samples of a table, 8 for each table
- * (RLVC_TEST_UNITS if it is small: fisher.h), RLVC_TEST_UNITS for the p-value.
+ * candidates, one for each call of exhibits(), two for each 64 samples of a table, 8 for each table,
+ * RLVC_TEST_UNITS for the p-value.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,
                                  uint32_t budget, uint32_t *used);

@@ -177,6 +177,7 @@ static void test_fisher_arguments(void **state) {
     assert_int_equal(rlvc_fisher_table(26u, 26u, 26u, 26u, &p, &log_p), RLVC_E_RANGE);
     assert_true(p == 7.0f && log_p == 7.0f);
     assert_int_equal(rlvc_fisher_table(25u, 25u, 25u, 25u, NULL, NULL), RLVC_OK);
+    assert_int_equal(rlvc_fisher_table(0u, 0u, 0u, 0u, NULL, NULL), RLVC_OK);
     assert_int_equal(rlvc_fisher_table(0u, 0u, most, 0u, &p, &log_p), RLVC_OK);
     assert_true(p == 1.0f && log_p == 0.0f);
 }
@@ -199,7 +200,7 @@ static void test_same_bits_everywhere(void **state) {
         assert_int_equal(rlvc_fisher_table(degrees % 9u, 8u, degrees, 99u, NULL, &x), RLVC_OK);
         all = digest(all, x);
     }
-    const uint32_t pinned = 0xb721effcu;
+    const uint32_t pinned = 0x162aa62cu;
     if (all != pinned)
         fail_msg("the digest is 0x%08xu, not 0x%08xu", (unsigned)all, (unsigned)pinned);
 }

@@ -16,7 +16,7 @@
 #include "snapshots.h"
 #include "state.h"
 
-#define HELD 48u
+#define HELD 64u
 
 static unsigned char older[BLOCK_BYTES], newer[BLOCK_BYTES];
 static player_result expected, got;

@@ -140,14 +140,11 @@ def expects_below(table, count):
 
 
 @functools.lru_cache(None)
-def fisher(table, same=1.0):
-    """Fisher's p-value, two-sided; with `same` 1/2 the mid-p-value."""
+def fisher(table):
+    """Fisher's p-value: twice that of the tables as far off on the same side."""
     a, b, c, d = (int(x) for x in table)
-    x = numpy.arange(max(0, a - d), min(a + b, a + c) + 1)
-    log_pmf = scipy.stats.hypergeom.logpmf(x, a + b + c + d, a + b, a + c)
-    ratio = numpy.exp(log_pmf - log_pmf[a - x[0]])
-    weight = numpy.where(ratio > 1.0001, 0.0, numpy.where(ratio * 1.0001 < 1, 1.0, same))
-    return min(1.0, float(numpy.exp(log_pmf) @ weight))
+    law = scipy.stats.hypergeom(a + b + c + d, a + b, a + c)
+    return min(1.0, 2 * float(law.sf(a - 1) if a * d >= b * c else law.cdf(a)))
 
 
 def table_log_p(table):
@@ -156,17 +153,10 @@ def table_log_p(table):
             else scipy.stats.chi2.logsf(float(pearson(*table)), 1))
 
 
-def normal_quantile(log_p):
-    """|z| of a two-sided p-value, by Abramowitz and Stegun's 26.2.23."""
-    t = numpy.sqrt(2 * (numpy.log(2) - log_p))
-    return t - numpy.polyval([0.010328, 0.802853, 2.515517], t) / numpy.polyval(
-        [0.001308, 0.189269, 1.432788, 1], t)
-
-
 def table_statistic(table):
     """What a table adds to a sum over several, of one degree of freedom."""
     if expects_below(table, 1):
-        return normal_quantile(numpy.log(fisher(tuple(table), 0.5))) ** 2
+        return float(2 * numpy.log(2) * sum(table) * scores(GAIN, *table))
     return float(pearson(*table))
 
 
@@ -268,12 +258,6 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
     together = {f: [g.candidates(f, kind) for g in groups if g.divided_by(f)] for f in features}
     alone = [x for lists in together.values() for candidates in lists for x in candidates]
     return Search(alone, together, groups, numpy.log(max(len(features), 1)))
-
-
-def far(statistic, degrees):
-    """How far beyond chance a sum is, by Chernoff's bound."""
-    excess = statistic - degrees
-    return excess - degrees * numpy.log(statistic / degrees) if excess > 0 else 0.0
 
 
 def log_pairs(f, g, features):

@@ -201,7 +201,7 @@ class Learner:
     def following(self, sums, samples):
         """The split by what follows that the method allows; several if rounding cannot tell."""
         log_tests = {pair: method.log_pairs(*pair, self.agent.bits) for pair in sums}
-        evidence = {pair: method.far(*x) - 2 * log_tests[pair] for pair, x in sums.items()}
+        evidence = {pair: x[0] - 2 * log_tests[pair] for pair, x in sums.items()}
         most = max(evidence.values(), default=0.0)
         options = []
         for pair, (statistic, degrees) in sorted(sums.items()):

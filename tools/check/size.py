@@ -30,7 +30,7 @@ FLAGS = ["-std=c99", "-ffp-contract=off", "-ffunction-sections", "-fdata-section
 BARE = ["--crt0=minimal", "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000",
         "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x80200000",
         "-Wl,--defsym=__ram_size=0x10000"]  # an image that has nothing but what it needs
-FLASH_MAX = 20 * 1024  # of the library without printing on the M3, by -Os; with the helpers by -Os -flto
+FLASH_MAX = 20 * 1024  # of the library without printing on the M3, by -Os
 RAM_MAX = 32 * 1024    # of learning the Binary Gridworld there
 LEVELS = ("-O2", "-Os", "-Os -flto")
 LEAN = "-DRLVC_SOLVERS=1"  # a controller's library: with the one solver that it uses
@@ -194,8 +194,7 @@ has writable data.
 
 What the linker keeps of the library in a program that learns by bits and does not print, if it is built with one
 solver, value iteration (`-DRLVC_SOLVERS=1`, core/src/solvers.h). Beside it stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
-division). On the M3 the library may take {FLASH_MAX:,} by -Os, and both together no more than that with link-time
-optimisation (-flto).
+division). On the M3 the library may take {FLASH_MAX:,} by -Os.
 
 | | {' | '.join(TARGETS)} |
 |---|{'--:|' * len(TARGETS)}"""
@@ -228,9 +227,9 @@ With `-O2`, the callbacks that it calls not counted; {HELPER_STACK} are granted 
 library.
 """
     yield from stack_table(objects)
-    largest = max(flash["-Os"]["M3"][0], sum(flash["-Os -flto"]["M3"]))
-    if largest > FLASH_MAX or memory + 2048 > RAM_MAX:
-        print(f"too large: {largest} bytes of flash, {memory + 2048} of memory", file=sys.stderr)
+    library = flash["-Os"]["M3"][0]
+    if library > FLASH_MAX or memory + 2048 > RAM_MAX:
+        print(f"too large: {library} bytes of flash, {memory + 2048} of memory", file=sys.stderr)
         raise SystemExit(1)
 
 

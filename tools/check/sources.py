@@ -14,8 +14,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FLOORS = {
     "snapshot": 9,
     "policy": 8, "prune": 8, "resume": 8,
-    "agent": 7, "config": 7, "export": 7, "learn": 7, "print": 7,
-    "state": 6,
+    "agent": 7, "export": 7, "learn": 7, "print": 7,
+    "config": 6, "state": 6,
     "model": 5, "seek": 5, "succession": 5,
     "export_descriptors": 4, "export_thresholds": 4, "samples": 4, "solver": 4, "split": 4,
     "aliasing": 3, "compact": 3, "explore": 3, "export_tree": 3, "incremental": 3,

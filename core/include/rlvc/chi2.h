@@ -39,14 +39,14 @@ RLVC_API rlvc_status rlvc_chi2_table(uint32_t a, uint32_t b, uint32_t c, uint32_
 
 #define RLVC_FISHER_EXPECTED_MAX 25u
 
-/* Fisher's exact test of such a table, two-sided: the probability, if rows and columns are independent, of
- * all tables with the same sums that are no more probable than this one (to 1 + 1e-4, so that equals count
- * as equal); and its natural logarithm. For tables that are too small for chi-square. The error is at most
+/* Fisher's exact test of such a table, two-sided: twice the probability, if rows and columns are independent,
+ * of all tables with the same sums that are as far from independence on the same side, or farther, at most 1;
+ * and its natural logarithm. For tables that are too small for chi-square. The error is at most
  * 2e-5 (1 - ln p), relative to p. O(1).
  * @param a, b, c, d as for rlvc_chi2_table; 1 and 0 if a row or a column is empty
  * @param p, log_p   each optional
- * @return RLVC_OK; RLVC_E_RANGE: the sum, or the least expected count is above
- *         RLVC_FISHER_EXPECTED_MAX. */
+ * @return RLVC_OK; RLVC_E_RANGE: the sum, or the least expected count is not below
+ *         RLVC_FISHER_EXPECTED_MAX + 1. */
 RLVC_API rlvc_status rlvc_fisher_table(uint32_t a, uint32_t b, uint32_t c, uint32_t d, float *p,
                                        float *log_p);
 
