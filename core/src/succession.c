@@ -15,7 +15,7 @@ enum { PROPOSE, NOW, NEXT, COUNT, TABLE, TEST, DONE };
 
 /* What a word of a table, and a table, are charged. */
 #define WORD_UNITS 2u
-#define TABLE_UNITS 8u
+#define TABLE_UNITS 24u
 
 static void enter(rlvc_succession *succession, uint8_t phase) {
     succession->phase = phase;

@@ -53,7 +53,7 @@ void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *se
                            const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for the
- * candidates, one for each call of exhibits(), two for each 64 samples of a table, 8 for each table,
+ * candidates, one for each call of exhibits(), two for each 64 samples of a table, 24 for each table,
  * RLVC_TEST_UNITS for the p-value.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,

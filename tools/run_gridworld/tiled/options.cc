@@ -113,7 +113,7 @@ void add_learning(CLI::App &app, TiledOptions &options) {
     add_criterion(app, options.criterion);
     add(app, "--interactions", options.interactions, 1, 1000000,
         "returns: of each step (2000); residual: of the run (4500)");
-    add(app, "--steps", options.steps, 1, 10000, "learning steps (returns: 20; residual: 8)");
+    add(app, "--steps", options.steps, 1, 10000, "learning steps (returns: 20; residual: 12)");
     add(app, "--gamma", options.gamma, 0, 0.999f, "discount of future rewards (0.9)");
     add(app, "--epsilon", options.epsilon, 0, 1, "probability of exploring (returns: 0.8, else 1)");
     add(app, "--alpha", options.alpha, 1e-30f, 1,
@@ -132,7 +132,7 @@ void settle(TiledOptions &options) {
         options.interactions = returns ? 2000 : 4500;
     }
     if (options.steps == 0) {
-        options.steps = returns ? 20 : 8;
+        options.steps = returns ? 20 : 12;
     }
     if (!returns && options.steps > options.interactions) {
         throw Failure("--steps: at most one for each of the " +
