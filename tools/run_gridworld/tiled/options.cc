@@ -132,7 +132,7 @@ void settle(TiledOptions &options) {
         options.interactions = returns ? 2000 : 4500;
     }
     if (options.steps == 0) {
-        options.steps = returns ? 20 : 12;
+        options.steps = returns ? 20 : std::min(12U, options.interactions);
     }
     if (!returns && options.steps > options.interactions) {
         throw Failure("--steps: at most one for each of the " +
