@@ -432,6 +432,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "rlvc_chi2_survival": (c.c_int, [c.c_float, _U32, _P, _P]),
     "rlvc_chi2_critical": (c.c_int, [c.c_float, _U32, _P]),
     "rlvc_chi2_table": (c.c_int, [_U32, _U32, _U32, _U32, _P]),
+    "rlvc_fisher_table": (c.c_int, [_U32, _U32, _U32, _U32, _P, _P]),
     # agent.h
     "rlvc_config_default": (c.c_int, [_P, _P, _U32]),
     "rlvc_config_check": (c.c_int, [_P, _P, _P]),

@@ -83,8 +83,10 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     rlvc_split about;
     const void *feature = rlvc_search_result(&search, &space, &about);
     Winner winner = {};
-    if (feature)
-        winner = {{about.score, search.alone.below, 0, 0}, rlvc_bits_feature(feature)};
+    if (feature) {
+        const rlvc_table &table = search.alone.table;
+        winner = {{about.score, table.a + table.b, table.a, table.a + table.c}, rlvc_bits_feature(feature)};
+    }
     return winner;
 }
 
