@@ -30,7 +30,7 @@
 #define EXPECTED_IN_SUM 1u
 
 /* Terms below it, of sums above 1, are not seen. */
-#define NEGLIGIBLE 1e-8f
+#define NEGLIGIBLE 1e-6f
 
 /* ln H(n) = ln n! - n ln n + n: from 4 on by Stirling's series. */
 static float ln_h(uint32_t n) {
@@ -73,7 +73,7 @@ static float tail(const rlvc_table *t) {
     while (w > NEGLIGIBLE) {
         a += 1.0f;
         d += 1.0f;
-        w *= b / a * (c / d); /* 0 once b or c is */
+        w *= b * c / (a * d); /* 0 once b or c is */
         b -= 1.0f;
         c -= 1.0f;
         sum += w;
