@@ -6,10 +6,13 @@
  *
  *     P = (a + b)! (c + d)! (a + c)! (b + d)! / (N! a! b! c! d!).
  *
- * The factorials nearly cancel. With n! = n^n e^-n H(n), where H(n) is near sqrt(2 pi n), the powers leave
- * the information gain, which score.c computes without cancelling (g bits a sample):
+ * The factorials nearly cancel. With n! = n^n e^-n sqrt(2 pi n) e^c(n), the powers leave the information gain, which
+ * score.c computes without cancelling (g bits a sample), and the roots one logarithm:
  *
- *     ln P = ln H of the four sums - ln H(N) - ln H of the four cells - N g ln 2.
+ *     ln P = 1/2 ln(product of the four sums / (2 pi N product of the four cells))
+ *            + c of the four sums - c(N) - c of the four cells - N g ln 2.
+ *
+ * 0! = 1 comes out with 1 in place of n under the root.
  *
  * The tables on the same side are farther and farther from independence; where a d >= b c, the next has
  * a + 1, b - 1, c - 1, d + 1, and is b c / ((a + 1)(d + 1)) times as probable. The p-value is twice their sum. As the
@@ -32,16 +35,19 @@
 /* Terms below it, of sums above 1, are not seen. */
 #define NEGLIGIBLE 1e-6f
 
-/* ln H(n) = ln n! - n ln n + n: from 4 on by Stirling's series. */
-static float ln_h(uint32_t n) {
-    static const float small[4] = {0.0f, 1.0f, 1.306852819f, 1.495922603f};
+/* c(n): from 4 on by Stirling's series. */
+static float correction(uint32_t n) {
+    static const float small[4] = {-0.918938533f, 0.081061467f, 0.041340696f, 0.027677926f};
     if (n < 4)
         return small[n];
-    float m = (float)n;
-    float inverse = 1.0f / m;
+    float inverse = 1.0f / (float)n;
     float square = inverse * inverse;
-    float series = inverse * (1.0f / 12.0f - square * (1.0f / 360.0f - square * (1.0f / 1260.0f)));
-    return HALF_LN_2_PI + 0.5f * rlvc_ln(m) + series;
+    return inverse * (1.0f / 12.0f - square * (1.0f / 360.0f - square * (1.0f / 1260.0f)));
+}
+
+/* x / y, each 1 if it is 0. */
+static float ratio(uint32_t x, uint32_t y) {
+    return (float)(x > 0 ? x : 1u) / (float)(y > 0 ? y : 1u);
 }
 
 /* N g ln 2. */
@@ -52,10 +58,15 @@ static float likelihood(const rlvc_table *t) {
 
 /* ln P. */
 static float ln_probability(const rlvc_table *t) {
-    float rows = ln_h(t->a + t->b) + ln_h(t->c + t->d);
-    float columns = ln_h(t->a + t->c) + ln_h(t->b + t->d);
-    float cells = ln_h(t->a) + ln_h(t->b) + ln_h(t->c) + ln_h(t->d);
-    return (rows + columns - cells - ln_h(t->a + t->b + t->c + t->d)) - likelihood(t);
+    const uint32_t sums[4] = {t->a + t->b, t->c + t->d, t->a + t->c, t->b + t->d};
+    const uint32_t cells[4] = {t->a, t->d, t->c, t->b};
+    uint32_t n = sums[0] + sums[1];
+    float quotient = ratio(1, n), corrections = -correction(n);
+    for (int i = 0; i < 4; i++) {
+        quotient *= ratio(sums[i], cells[i]);
+        corrections += correction(sums[i]) - correction(cells[i]);
+    }
+    return (0.5f * rlvc_ln(quotient) - HALF_LN_2_PI) + corrections - likelihood(t);
 }
 
 /* The probability of all tables as far from independence on this side, as a multiple of P. */

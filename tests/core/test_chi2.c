@@ -200,7 +200,7 @@ static void test_same_bits_everywhere(void **state) {
         assert_int_equal(rlvc_fisher_table(degrees % 9u, 8u, degrees, 99u, NULL, &x), RLVC_OK);
         all = digest(all, x);
     }
-    const uint32_t pinned = 0x01717268u;
+    const uint32_t pinned = 0xc0800874u;
     if (all != pinned)
         fail_msg("the digest is 0x%08xu, not 0x%08xu", (unsigned)all, (unsigned)pinned);
 }
