@@ -33,8 +33,8 @@
 #define CAPACITY 920u
 #define CLASSES 52u
 #define EPSILON 0.9f
-#define ALPHA 0.05f
-#define ALPHA_KNOWN 0.2f
+#define ALPHA 0.01f
+#define ALPHA_KNOWN 1.0f
 #define SUCCESSORS 1
 #endif
 
