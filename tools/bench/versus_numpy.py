@@ -27,7 +27,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.stats import chi2, hypergeom
 
 SUTTON = ["--noise", "3", "--light", "0.05", "--poses", "0,20,-20", "--test-poses", "10,-10"]
 BINS, MEASURED, GAP_MIN, GAP_BEYOND, DRAWS_MAX = 64, 512, 7, 5, 64  # core/domains/descriptors.c
@@ -41,7 +41,7 @@ class Snapshot:
         self.percept_bytes, self.feature_bytes = self.take("II")
         self.actions, _, _, _, self.min_samples, _, _ = self.take("7I")
         self.take("8B")
-        self.discount, _, self.alpha, _, self.tolerance, _, _ = self.take("7f")
+        self.discount, _, self.alpha, self.alpha_known, self.tolerance, _, _ = self.take("7f")
         self.take("QQIIIIIf")
         count = self.take("IIIIB")[1]
         slot = np.dtype([("count", "<u4"), ("numbers", "i1", self.percept_bytes - 4),
@@ -174,7 +174,7 @@ class Learner:
     def weigh(self, parts, present, features, radii):
         f = np.arange(present.shape[1])
         evidence, statistic, log_tests = np.zeros((3, len(f)))
-        degrees, alone = np.zeros(len(f), int), (0.0, None)
+        degrees, alone, cuts_of_all = np.zeros(len(f), int), (0.0, None), 0
         for begin, end, cuts in parts:
             n, a = end - begin, np.cumsum(present[begin:end], axis=0)[cuts - 1]
             total = present[begin:end].sum(0)
@@ -183,25 +183,28 @@ class Learner:
             best = score.argmax(0)
             divides = (total > 0) & (total < n)
             mine = np.where(divides, score[best, f] * n, 0)
-            found = np.where(divides, pearson(table[:, best, f].astype(float)), 0)
             degrees += divides
             log_tests += divides * np.log(len(cuts))
             evidence += mine
-            statistic += found
+            statistic += np.where(divides, summand(table[:, best, f]), 0)
+            cuts_of_all += len(cuts)
             if mine.max() > alone[0]:
                 j = mine.argmax()
-                alone = (mine[j], j, chi2.logsf(found[j], 1) + np.log(len(cuts)))
+                alone = (mine[j], j, table[:, best[j], j])
         if alone[1] is None:
             return None
-        j, log_p = alone[1:]
+        j, log_p = alone[1], log_p_alone(alone[2]) + np.log(cuts_of_all)
         if len(parts) > 1:
             both = evidence.argmax()
             together = chi2.logsf(statistic[both], degrees[both]) + log_tests[both]
             j, log_p = (both, together) if together < log_p else (j, log_p)
             log_p += np.log(2)
-        if log_p + np.log((degrees > 0).sum()) >= np.log(self.s.alpha):
-            return None
-        return features[j], radii[j]
+        log_p += np.log((degrees > 0).sum())
+        new = not any(np.array_equal(features[j], split[1]) and radii[j] == split[2]
+                      for split in self.tree)
+        if log_p < self.log_level or (not new and log_p < np.log(self.s.alpha_known)):
+            return features[j], radii[j]
+        return None
 
     # ---------------------------------------------------------------- the loop
 
@@ -232,9 +235,10 @@ class Learner:
             has = self.nearest(inside, feature[None])[:, 0] <= radius * radius
             self.labels[inside[has]] = made
 
-    def step(self, interactions):
-        """A learning step from the first so many interactions."""
-        s = self.s
+    def step(self, k, interactions):
+        """Learning step k, from the first so many interactions."""
+        s, d = self.s, (k + 1).bit_length()
+        self.log_level = np.log(s.alpha / (d * (d + 1) * 2 ** (d - 1)))  # core/SPEC.md, "The level"
         at = np.flatnonzero(s.slots["flags"] & 1)[:interactions]
         following = np.where(s.slots["flags"][at] & 4, -1, at + 1)
         end = max(at[-1], following[-1]) + 1
@@ -276,6 +280,27 @@ def pearson(table):
     return (a + b + c + d) * (a * d - b * c) ** 2 / np.maximum(product, 1)
 
 
+def least_expected(table):
+    a, b, c, d = table
+    return np.minimum(a + b, c + d) * np.minimum(a + c, b + d) / (a + b + c + d)
+
+
+def summand(table):
+    """What the 2 x 2 tables add to a sum of statistics."""
+    table = table.astype(float)
+    ratio = 2 * np.log(2) * table.sum(0) * gain(table)
+    return np.where(least_expected(table) < 1, ratio, pearson(table))
+
+
+def log_p_alone(table):
+    """Of one table by itself: Fisher's where a count below 5 is expected."""
+    if least_expected(table) >= 5:
+        return chi2.logsf(pearson(table.astype(float)), 1)
+    a, b, c, d = (int(x) for x in table)
+    law = hypergeom(a + b + c + d, a + b, a + c)
+    return min(0.0, np.log(2) + (law.logsf(a - 1) if a * d >= b * c else law.logcdf(a)))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="the run_gridworld that was built")
@@ -302,7 +327,7 @@ def main():
     start = time.process_time()
     learner = Learner(snapshot, features, args.by_difference)
     for k in range(steps):
-        learner.step(interactions * (k + 1) // steps)
+        learner.step(k, interactions * (k + 1) // steps)
     seconds = time.process_time() - start
 
     same = np.abs(learner.values[learner.labels] - snapshot.values) < 1
