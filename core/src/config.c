@@ -2,6 +2,7 @@
 /* The config: defaults and ranges. */
 #include "config.h"
 
+#include "ranks.h"
 #include "solvers.h"
 
 rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, uint32_t actions) {
@@ -72,7 +73,8 @@ enum {
     WRONG_TOLERANCE,
     WRONG_LEARNING_RATE,
     WRONG_OPTIMISTIC_VALUE,
-    WRONG_SUCCESSORS_DOMAIN
+    WRONG_SUCCESSORS_DOMAIN,
+    WRONG_RANKS
 };
 
 static int wrong_in_domain(const rlvc_domain *domain) {
@@ -108,7 +110,7 @@ static int wrong_in_counts(const rlvc_config *config) {
 static int wrong_in_choices(const rlvc_config *config) {
     if (config->criterion > RLVC_CRITERION_RESIDUAL)
         return WRONG_CRITERION;
-    if (config->score > RLVC_SCORE_CHI2)
+    if (config->score > RLVC_SCORE_RANKS)
         return WRONG_SCORE;
     unsigned solver = config->solver <= RLVC_SOLVER_PRIORITIZED ? 1u << config->solver : 0u;
     if (!((unsigned)(RLVC_SOLVERS) & solver))
@@ -148,6 +150,8 @@ static int wrong_together(const rlvc_config *config, const rlvc_domain *domain) 
     if (config->successors && (domain->features_max < 1 || domain->oracle ||
                                domain->features_max > config->features_at_once))
         return WRONG_SUCCESSORS_DOMAIN;
+    if (config->score == RLVC_SCORE_RANKS && (domain->oracle || config->capacity >= RLVC_RANKS_MAX))
+        return WRONG_RANKS;
     return NOTHING_WRONG;
 }
 
@@ -182,6 +186,7 @@ static const char *message_of(int wrong) {
         [WRONG_LEARNING_RATE] = "learning_rate must be within (0, 1]",
         [WRONG_OPTIMISTIC_VALUE] = "optimistic_value must be within [-1e12, 1e12]",
         [WRONG_SUCCESSORS_DOMAIN] = "successors needs a domain with features_max within [1, features_at_once] and no oracle",
+        [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
     };
     return messages[wrong];
 }

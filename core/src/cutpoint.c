@@ -33,7 +33,8 @@
  *      CHUNK   a chunk is passed over, if it may be;
  *      BLOCK   a block of 2^level words in it is passed over, if it may be, else halved; after one
  *              that was, the next may be twice as long;
- *      BITS    in a block of one word that could not be passed over, cutpoint by cutpoint.
+ *      BITS    in a block of one word that could not be passed over, cutpoint by cutpoint;
+ *      or, by ranks, RANK in place of all but the first: each word goes into the sums of ranks.h.
  * Each action costs at most ACTION_MAX units and is only begun if so much is left; none depends on
  * how much is left, which is why the slicing changes nothing. */
 #include "cutpoint.h"
@@ -43,7 +44,7 @@
 #include "rlvc/agent.h"
 #include "score.h"
 
-enum { COUNT, PROBE, CHUNK, BLOCK, BITS };
+enum { COUNT, PROBE, CHUNK, BLOCK, BITS, RANK };
 
 #define BLOCK_WORDS 16u /* the longest block */
 #define BLOCK_LEVEL 4u  /* its logarithm */
@@ -156,7 +157,7 @@ static uint32_t count_step(rlvc_scan *scan, uint32_t budget) {
     scan->best.present += present;
     scan->word = end;
     if (end == words) {
-        scan->phase = PROBE;
+        scan->phase = scan->score_kind == RLVC_SCORE_RANKS ? RANK : PROBE;
         scan->word = 0;
         scan->done = scan->best.present == 0 || scan->best.present == scan->count;
         set_bar(scan, scan->bar);
@@ -293,6 +294,21 @@ static uint32_t bits_step(rlvc_scan *scan) {
     return work;
 }
 
+/* Adds a word to the sums of ranks; the last makes the statistic. */
+static uint32_t rank_step(rlvc_scan *scan) {
+    uint32_t at = scan->word * 64u;
+    uint64_t column = scan->column[scan->word];
+    uint64_t cuts = scan->cuts[scan->word];
+    rlvc_ranks_add(&scan->ranks, at, (uint32_t)column, (uint32_t)cuts);
+    rlvc_ranks_add(&scan->ranks, at + 32u, (uint32_t)(column >> 32), (uint32_t)(cuts >> 32));
+    scan->word++;
+    if (scan->word == words_of(scan)) {
+        scan->best.score = rlvc_ranks_statistic(&scan->ranks, scan->best.present, scan->count);
+        scan->done = 1;
+    }
+    return cuts != 0 ? RLVC_SCAN_SCORE_UNITS : RLVC_SCAN_WORD_UNITS;
+}
+
 uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget) {
     uint32_t left = budget;
     RLVC_ASSERT(budget >= RLVC_BUDGET_MIN);
@@ -305,8 +321,10 @@ uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget) {
             left -= chunk_step(scan);
         else if (scan->phase == BLOCK)
             left -= block_step(scan);
-        else
+        else if (scan->phase == BITS)
             left -= bits_step(scan);
+        else
+            left -= rank_step(scan);
     return budget - left;
 }
 

@@ -23,21 +23,24 @@
 /* Beyond it the series would want more terms, and the plain form loses no more than 3 bits. */
 #define SERIES_MAX 0.25f
 
-/* P ln(P / Q) - (P - Q) for P >= 0, Q > 0, P + Q < 2^63. */
-static float cell_gain(int64_t p, int64_t q) {
-    float difference = (float)(p - q);
-    float s = difference / (float)(p + q);
+float rlvc_excess(float p, float q, float difference, float sum) {
+    float s = difference / sum;
     if (s > -SERIES_MAX && s < SERIES_MAX) {
         float z = s * s;
         float odd =
             1.0f / 3.0f +
             z * (1.0f / 5.0f +
                  z * (1.0f / 7.0f + z * (1.0f / 9.0f + z * (1.0f / 11.0f + z * (1.0f / 13.0f)))));
-        return difference * s + 2.0f * (float)p * (s * z * odd);
+        return difference * s + 2.0f * p * (s * z * odd);
     }
-    if (p == 0)
-        return (float)q;
-    return (float)p * rlvc_ln((float)p / (float)q) - difference;
+    if (!(p > 0.0f))
+        return q;
+    return p * rlvc_ln(p / q) - difference;
+}
+
+/* The same for integers below 2^62. */
+static float cell_gain(int64_t p, int64_t q) {
+    return rlvc_excess((float)p, (float)q, (float)(p - q), (float)(p + q));
 }
 
 float rlvc_score(uint8_t kind, uint32_t present_below, uint32_t absent_below,

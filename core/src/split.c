@@ -116,7 +116,9 @@ static void end_marking(rlvc_search *search, const rlvc_searching *searching) {
 
 /* Goes on to the next group. */
 static void close_group(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_group *group = &searching->space->group[search->action];
+    rlvc_group *group = &searching->space->group[search->action];
+    if (searching->score == RLVC_SCORE_RANKS && group->cuts > 0)
+        group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
     search->groups += group->cuts > 0;
     search->samples += group->cuts > 0 ? size_of(group) : 0;
     search->cuts += group->cuts;
@@ -251,7 +253,7 @@ static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *search
     const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
                               count - cut->below - above};
     rlvc_single weighed = {0.0f, cut->score, table, search->action};
-    weighed.evidence = searching->score == RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
+    weighed.evidence = searching->score >= RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
     return weighed;
 }
 
@@ -278,7 +280,9 @@ static void close_column(rlvc_search *search, const rlvc_searching *searching) {
     if (found->score > 0.0f) {
         rlvc_single weighed = weigh(search, searching, found, size_of(group));
         pool->evidence += weighed.evidence;
-        pool->statistic += rlvc_table_statistic(&weighed.table);
+        pool->statistic += searching->score == RLVC_SCORE_RANKS
+                               ? weighed.evidence
+                               : rlvc_table_statistic(&weighed.table);
         keep_best_alone(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
@@ -367,14 +371,17 @@ static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) 
 /* ------------------------------------------------------------------ the whole */
 
 /* Finds the p-value of one of the winners, if there are any. */
-static uint32_t test(rlvc_search *search) {
+static uint32_t test(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_pool *together = &search->together;
     if (!(search->alone.evidence > 0.0f)) {
         enter(search, DONE);
         return 1;
     }
     if (search->phase == TEST_ALONE) {
-        search->alone_log_p = rlvc_table_log_p(&search->alone.table);
+        if (searching->score == RLVC_SCORE_RANKS)
+            (void)rlvc_chi2_survival(search->alone.score, 1, NULL, &search->alone_log_p);
+        else
+            search->alone_log_p = rlvc_table_log_p(&search->alone.table);
         enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : DONE);
     } else {
         (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
@@ -414,7 +421,7 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
     case ANSWER:
         return answer(search, searching);
     default:
-        *used = test(search);
+        *used = test(search, searching);
         return RLVC_OK;
     }
 }

@@ -8,6 +8,9 @@
  * costs O(N + F N / 64 + F C) beside detecting, not O(F N C). Columns are made for a block of features at
  * a time.
  *
+ * By ranks a feature has instead one statistic in each group (ranks.h), which is its score, its evidence
+ * and, with a degree of freedom, its test; a group that has cutpoints then counts as one of C = 1 below.
+ *
  * The evidence of a feature and a cutpoint in a group is its score times the samples of the group (for
  * chi-square, which counts them already, the score). Two features may win:
  *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower action,
@@ -33,7 +36,7 @@
 typedef struct rlvc_group {
     uint32_t begin; /* samples [begin, end) of the class */
     uint32_t end;
-    uint32_t cuts; /* cutpoints; a group without one takes no part */
+    uint32_t cuts; /* C: cutpoints; by ranks at most 1. A group without one takes no part */
     uint32_t word; /* where its words begin in the cutpoints and in each column */
 } rlvc_group;
 

@@ -12,7 +12,7 @@ from . import _lib
 from .errors import ConfigError
 
 Criterion = Literal["returns", "residual"]
-Score = Literal["gain", "gini", "chi2"]
+Score = Literal["gain", "gini", "chi2", "ranks"]
 Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"]
 Untried = Literal["excluded", "optimistic"]
 Explore = Literal["uniform", "directed"]
@@ -20,7 +20,7 @@ Explore = Literal["uniform", "directed"]
 # Field: its names, in the order of the constants of agent.h.
 CHOICES: dict[str, tuple[str, ...]] = {
     "criterion": ("returns", "residual"),
-    "score": ("gain", "gini", "chi2"),
+    "score": ("gain", "gini", "chi2", "ranks"),
     "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"),
     "untried": ("excluded", "optimistic"),
     "explore": ("uniform", "directed"),
@@ -52,8 +52,10 @@ class Config:
     criterion : {"residual", "returns"}
         Which classes are aliased (section 4.2.2): by one-step returns on one growing database, or by
         truncated discounted returns on a fresh one each step, as published.
-    score : {"gain", "gini", "chi2"}
-        How well a feature explains a partition (section 4.2.3).
+    score : {"gain", "gini", "chi2", "ranks"}
+        How well a feature explains a partition (section 4.2.3); or, without a partition, the rank-sum
+        test of the targets with the feature against those without it (not for a domain with its own
+        ``oracle``; ``capacity`` below 2**21).
     solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"}
         Where the values of the classes come from.
     untried : {"excluded", "optimistic"}

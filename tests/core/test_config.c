@@ -117,7 +117,7 @@ static void test_choices(void **state) {
         uint8_t high;
     } choices[] = {
         {"criterion", &config.criterion, RLVC_CRITERION_RESIDUAL},
-        {"score", &config.score, RLVC_SCORE_CHI2},
+        {"score", &config.score, RLVC_SCORE_RANKS},
         {"solver", &config.solver, RLVC_SOLVER_PRIORITIZED},
         {"untried", &config.untried, RLVC_UNTRIED_OPTIMISTIC},
         {"continuing", &config.continuing, 1},
@@ -222,12 +222,31 @@ static void test_successors(void **state) {
     }
 }
 
+/* An oracle is asked about cutpoints, and ranks have none; and a count cubed must fit into 64 bits. */
+static void test_ranks(void **state) {
+    (void)state;
+    make();
+    config.successors = 0;
+    config.score = RLVC_SCORE_RANKS;
+    config.capacity = (1u << 21) - 1u;
+    expect(NULL, "ranks");
+    config.capacity++;
+    expect("ranks", "ranks of too many");
+    config.score = RLVC_SCORE_CHI2;
+    expect(NULL, "chi-square of many");
+    domain.oracle = oracle;
+    expect(NULL, "chi-square with an oracle");
+    config.capacity = 1000;
+    config.score = RLVC_SCORE_RANKS;
+    expect("ranks", "ranks with an oracle");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults), cmocka_unit_test(test_null),
         cmocka_unit_test(test_counts),   cmocka_unit_test(test_choices),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_callbacks),
-        cmocka_unit_test(test_successors),
+        cmocka_unit_test(test_successors), cmocka_unit_test(test_ranks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ typedef struct learning {
 
 #define CRITERIA 2u
 #define SOLVERS 5u
-#define SCORES 3u
+#define SCORES 4u
 #define CASES (CRITERIA * SOLVERS * FORMS)
 
 static learning case_number(uint32_t i) {
@@ -30,7 +30,7 @@ static learning case_number(uint32_t i) {
     made.criterion = (uint8_t)(i % CRITERIA);
     made.solver = (uint8_t)(i / CRITERIA % SOLVERS);
     made.form = (int)(i / CRITERIA / SOLVERS);
-    made.score = (uint8_t)(i % SCORES);
+    made.score = (uint8_t)(i / CRITERIA % (made.form == OWN_ORACLE ? RLVC_SCORE_RANKS : SCORES));
     return made;
 }
 
@@ -254,7 +254,7 @@ static void test_detectors_and_blocks(void **state) {
         player_enter_world(&p, i % 2u == 0 ? BATCH : ONE_BY_ONE);
         p.config.features_at_once = at_once[i / 2u % 4u];
         p.config.score = (uint8_t)(i / 8u % SCORES);
-        p.config.criterion = (uint8_t)(i / 24u);
+        p.config.criterion = (uint8_t)(i / (8u * SCORES));
         p.config.epsilon = 0.5f;
         p.config.alpha = 1.0f;
         player_init(&p);

@@ -57,6 +57,7 @@ static void prepare(const kind *k) {
     p.config.capacity = 900;
     p.config.alpha_known = 0.3f;
     p.config.successors = k->form != OWN_ORACLE;
+    p.config.score = k->form == ONE_BY_ONE ? RLVC_SCORE_RANKS : RLVC_SCORE_GAIN;
     player_init(&p);
 }
 
@@ -119,9 +120,9 @@ static void test_resume_anywhere(void **state) {
 /* Every single slice of one step, as short as slices get, and on to the end of it. */
 static void test_resume_every_slice(void **state) {
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 6; i++) {
         const uint8_t solvers[] = {RLVC_SOLVER_POLICY_ITERATION, RLVC_SOLVER_PRIORITIZED};
-        const kind k = {(uint8_t)(i & 1), solvers[i >> 1], BATCH};
+        const kind k = {(uint8_t)(i & 1), solvers[i >> 1 & 1], i < 4 ? BATCH : ONE_BY_ONE};
         rlvc_progress progress;
         prepare(&k);
         rlvc_store store = medium_store(&m, &p.config, &p.domain, 0);

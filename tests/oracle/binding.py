@@ -11,7 +11,7 @@ U8, U32, U64, FLOAT = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c
 POINTER, SIZE = ctypes.c_void_p, ctypes.c_size_t
 
 RETURNS, RESIDUAL = 0, 1
-GAIN, GINI, CHI2 = 0, 1, 2
+GAIN, GINI, CHI2, RANKS = 0, 1, 2, 3
 VALUE_ITERATION, POLICY_ITERATION = 0, 1
 EXCLUDED, OPTIMISTIC = 0, 1
 GOES_ON, TERMINATED, TRUNCATED = 0, 1, 2

@@ -4,7 +4,8 @@
 
 Percepts are independent random bits, rewards are random and independent of percept and action, and the agent
 learns again and again from a growing database: whatever it splits by is chance. config.alpha is the
-probability, at most, that a run grows any test.
+probability, at most, that a run grows any test. With --shift there is something to learn: how soon is it
+found?
 
 RLVC_TESTING_LIB=build/shipped/core/librlvc_testing.so tests/oracle/false_splits.py
 """
@@ -21,27 +22,32 @@ TASKS = {
     "rare reward": (lambda rng: 100.0 if rng.random() < 0.02 else -1.0, 0.5),
     "rare bits": (lambda rng: float(rng.integers(2)), 0.03),
     "seldom bits": (lambda rng: float(rng.integers(2)), 0.1),
+    "rare both": (lambda rng: 100.0 if rng.random() < 0.02 else -1.0, 0.03),
 }
 
+SCORES = {"gain": binding.GAIN, "gini": binding.GINI, "chi2": binding.CHI2, "ranks": binding.RANKS}
 
-def grows(task, seed, interactions, every, bits=18, actions=4, **fields):
-    """Whether a run takes up any test."""
+
+def grows(task, seed, interactions, every, bits=18, actions=4, shift=0.0, **fields):
+    """After how many interactions a run takes up a test; 0 if never. Where bit 0 is 1 rewards are higher by
+    `shift`."""
     reward, share = TASKS[task]
     rng = numpy.random.default_rng(seed)
     agent = binding.Agent(bits, actions, capacity=interactions, seed=seed, **fields)
     percepts = (rng.random((interactions + 1, bits)) < share).astype(numpy.uint8)
     agent.begin(percepts[0])
     for t in range(1, interactions + 1):
-        agent.observe(*agent.act(), reward(rng), percepts[t], binding.GOES_ON)
+        earned = reward(rng) + shift * percepts[t - 1][0]
+        agent.observe(*agent.act(), earned, percepts[t], binding.GOES_ON)
         if t % every == 0:
             agent.learn()
             if agent.stats().classes > 1:
-                return True
-    return False
+                return t
+    return 0
 
 
 def count(task, runs, *arguments, **fields):
-    return sum(grows(task, seed, *arguments, **fields) for seed in range(runs))
+    return sum(grows(task, seed, *arguments, **fields) > 0 for seed in range(runs))
 
 
 def main():
@@ -50,10 +56,16 @@ def main():
     parser.add_argument("--interactions", type=int, default=2500)
     parser.add_argument("--every", type=int, default=100, help="interactions from one learning step to the next")
     parser.add_argument("--alpha", type=float, default=0.05, help="the rate that is stated (0.05)")
+    parser.add_argument("--shift", type=float, default=0.0, help="of rewards, by bit 0 (0)")
+    parser.add_argument("--score", choices=SCORES, default="gain", help="of a feature (gain)")
     options = parser.parse_args()
     for task in TASKS:
-        grown = count(task, options.runs, options.interactions, options.every, alpha=options.alpha)
-        print(f"{task:12} {grown:4} of {options.runs} runs grew a test", flush=True)
+        found = [grows(task, seed, options.interactions, options.every, shift=options.shift,
+                       alpha=options.alpha, score=SCORES[options.score]) for seed in range(options.runs)]
+        grown = sum(after > 0 for after in found)
+        median = numpy.median([after or numpy.inf for after in found])
+        print(f"{task:12} {grown:4} of {options.runs} runs grew a test",
+              f"after {median:.0f} interactions (median)" if options.shift else "", flush=True)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ def test_help(tmp_path, arguments):
 
 def test_help_names_every_option(tmp_path):
     text = run("binary", "--help", cwd=tmp_path).stdout
-    for option in ("learner criterion interactions steps gamma epsilon alpha alpha-known successors seed runs maze slip distractors "
+    for option in ("learner criterion score interactions steps gamma epsilon alpha alpha-known successors seed runs maze slip distractors "
                    "classes capacity json dot export-c help version").split():
         assert re.search(rf"--{option}\b", text), option
 
@@ -103,6 +103,8 @@ def check_refused(done, *parts):
     (["binary", "--slip", "nan"], ["--slip"]),
     (["binary", "--slip", ""], ["--slip"]),
     (["binary", "--criterion", "best"], ["--criterion", "best", "returns", "residual"]),
+    (["binary", "--score", "ranking"], ["--score", "'ranking'", "gain", "gini", "chi2", "ranks"]),
+    (["binary", "--score", "ranks", "--capacity", "2097152"], ["ranks", "2^21"]),
     (["binary", "--interactions", "0"], ["--interactions"]),
     (["binary", "--interactions", "-5"], ["--interactions", "-5"]),
     (["binary", "--interactions", "1e3"], ["--interactions", "1e3"]),
@@ -331,6 +333,14 @@ def test_returns_criterion(tmp_path):
     assert made["interactions"] == 8000 and len(made["history"]) == 4
     assert made["policy_leaves"] > 1, "a step leaves an empty ring, for which one would do"
     assert made["policy_optimal_cells"] >= made["optimal_cells"]
+    check_run(made)
+
+
+def test_ranks_learn_the_maze(tmp_path):
+    made = report("--score", "ranks", cwd=tmp_path)
+    assert made["options"]["score"] == "ranks" and made["optimal_cells"] == 46
+    assert made["distractors_used"] == 0
+    assert ", score ranks," in run("binary", "--score", "ranks", cwd=tmp_path).stdout
     check_run(made)
 
 

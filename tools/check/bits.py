@@ -14,6 +14,7 @@ COMMANDS = [
     ["--criterion", "residual"],
     ["--criterion", "residual", "--slip", "0.1"],
     ["--criterion", "returns", "--interactions", "10000"],
+    ["--score", "ranks"],
 ]
 TIMES = {"seconds"}  # the members of a report that no two runs share
 

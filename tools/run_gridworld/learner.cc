@@ -29,6 +29,7 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint3
     config.classes = options.classes;
     config.seed = seed;
     config.criterion = options.criterion;
+    config.score = options.score;
     if (options.criterion == RLVC_CRITERION_RETURNS) { // as published
         config.continuing = 1;                         // through the teleport
         config.explore = RLVC_EXPLORE_UNIFORM;

@@ -35,6 +35,9 @@ constexpr uint32_t small_cells = 46;
 constexpr uint32_t large_interactions_a_cell = 320;
 constexpr uint32_t classes_min = 64, classes_max = 65535;
 
+// In the order of RLVC_SCORE_*.
+const std::vector<std::string> score_names{"gain", "gini", "chi2", "ranks"};
+
 constexpr char defaults_table[] = R"(Defaults by criterion    interactions  steps  epsilon  alpha    known    successors  capacity
   returns                10000 each       20  0.8      0.05     0.0001   no          a step's
   residual, small maze   2500             25  0.9      0.01     1        yes         1200
@@ -79,8 +82,23 @@ void add_learner(CLI::App &binary, Options &options) {
         ->type_name("NAME,...");
 }
 
+void add_score(CLI::App &binary, Options &options) {
+    binary
+        .add_option_function<std::string>(
+            "--score",
+            [&options](const std::string &name) {
+                const auto place = std::find(score_names.begin(), score_names.end(), name);
+                options.score = static_cast<uint8_t>(place - score_names.begin());
+            },
+            "what a bit tells of the targets, at its best cutpoint: gain (default), gini or chi2; or, "
+            "without one, ranks")
+        ->type_name("NAME")
+        ->check(one_of(score_names));
+}
+
 void add_learning(CLI::App &binary, Options &options) {
     add_criterion(binary, options.criterion);
+    add_score(binary, options);
     binary
         .add_option("--interactions", options.interactions,
                     "returns: fresh ones for each step; residual: those of the whole run")
@@ -266,4 +284,8 @@ void settle(Options &options, const gridworld_maze &maze) {
 
 const char *criterion_name(const Options &options) {
     return options.criterion == RLVC_CRITERION_RETURNS ? "returns" : "residual";
+}
+
+const char *score_name(const Options &options) {
+    return score_names[options.score].c_str();
 }

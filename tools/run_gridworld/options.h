@@ -15,6 +15,7 @@ struct Options {
     std::vector<LearnerType> learners; // at least one
     uint8_t solver = 0;                // RLVC_SOLVER_*: that of the learner at work
     uint8_t criterion = 0;             // RLVC_CRITERION_*
+    uint8_t score = 0;                 // RLVC_SCORE_*
     uint32_t interactions = 0; // returns: of each step; residual: of the whole run. 0: see settle()
     uint32_t steps = 0;        // learning steps; 0: see settle()
     float gamma = 0.9f;
@@ -47,5 +48,6 @@ void check_percept(const Options &options, const gridworld_maze &maze);
 void settle(Options &options, const gridworld_maze &maze);
 
 const char *criterion_name(const Options &options);
+const char *score_name(const Options &options);
 
 #endif

@@ -37,6 +37,7 @@ Json bit_range(uint32_t first, uint32_t count) {
 Json describe_options(const Options &options) {
     return {{"learner", options.learners.front().name},
             {"criterion", criterion_name(options)},
+            {"score", score_name(options)},
             {"interactions", options.interactions},
             {"steps", options.steps},
             {"gamma", shortest(options.gamma)},

@@ -35,6 +35,11 @@ typedef struct rlvc_agent rlvc_agent;
 #define RLVC_SCORE_GAIN 0u /* information gain */
 #define RLVC_SCORE_GINI 1u /* decrease of Gini impurity */
 #define RLVC_SCORE_CHI2 2u /* Pearson's chi-square statistic */
+#define RLVC_SCORE_RANKS 3u /* no partition, but the rank-sum test of the targets with the feature
+                               against those without it (Wilcoxon 1945, Mann and Whitney 1947): one
+                               test for a feature, not one for each cutpoint. It sees targets that
+                               are shifted, not others. Not for a domain with its own oracle;
+                               capacity below 2^21 */
 
 /* config.solver: where the values of the classes come from (sections 2.3 and 7). */
 #define RLVC_SOLVER_VALUE_ITERATION 0u  /* batch, over the stored interactions */
@@ -304,7 +309,7 @@ typedef struct rlvc_split {
     uint32_t samples;   /* of that class and action, or of the class */
     float log_tests;    /* natural logarithm of the number of tests that log_p is corrected by */
     float score;        /* of the split, as config.score measures it (together: the mean over the
-                           samples; of chi-square too; by what followed: always of chi-square) */
+                           samples; of chi-square and ranks too; by what followed: always of chi-square) */
     float log_p;        /* natural logarithm of the p-value, corrected by the number of tests in this
                            class, but not by alpha's sharing */
 } rlvc_split;

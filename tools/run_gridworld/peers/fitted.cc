@@ -15,6 +15,7 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain) {
     config.classes = options.classes;
     config.alpha = options.alpha;
     config.alpha_known = options.alpha_known;
+    config.score = options.score;
     config.discount = 0.0f;
     config.successors = 0; // nothing follows
     return config;
