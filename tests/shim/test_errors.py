@@ -418,6 +418,8 @@ def test_other_configs():
             rlvc.Agent(bits, 2)
     with pytest.raises(errors.BlockError):
         rlvc.Agent(1024, 255, capacity=2**31 - 1, classes=65535)
+    with pytest.raises(errors.ConfigError, match="ranks"):
+        rlvc.Agent(Own(), 2, score="ranks")
 
 
 @pytest.mark.parametrize("count", [0, -1, 2.0, None])

@@ -36,6 +36,17 @@ def taught(domain):
     return agent
 
 
+def test_a_shift_is_found_in_noise():
+    percepts, noise = numbers(600), np.random.default_rng(3)
+    agent = rlvc.Agent(rlvc.Thresholds(3, cutpoints=8), 1, score="ranks")
+    for percept in percepts:
+        agent.begin(percept)
+        agent.observe(0, 0.5 * wanted(percept) + noise.normal(), None, terminated=True)
+    agent.learn()
+    assert [split.feature["component"] for split in agent.splits] == [1]
+    assert agent.splits[0].log_tests == pytest.approx(np.log(3 * 8))
+
+
 def test_the_cutpoint_is_found(domain):
     agent = taught(domain)
     gc.collect()
