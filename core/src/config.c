@@ -65,7 +65,7 @@ enum {
     WRONG_CONTINUING,
     WRONG_SUCCESSORS,
     WRONG_EXPLORE,
-    WRONG_RESERVED,
+    WRONG_GATE,
     WRONG_DISCOUNT,
     WRONG_EPSILON,
     WRONG_ALPHA,
@@ -74,7 +74,8 @@ enum {
     WRONG_LEARNING_RATE,
     WRONG_OPTIMISTIC_VALUE,
     WRONG_SUCCESSORS_DOMAIN,
-    WRONG_RANKS
+    WRONG_RANKS,
+    WRONG_GATE_CRITERION
 };
 
 static int wrong_in_domain(const rlvc_domain *domain) {
@@ -123,8 +124,8 @@ static int wrong_in_choices(const rlvc_config *config) {
         return WRONG_SUCCESSORS;
     if (config->explore > RLVC_EXPLORE_DIRECTED)
         return WRONG_EXPLORE;
-    if (config->reserved)
-        return WRONG_RESERVED;
+    if (config->gate > 1)
+        return WRONG_GATE;
     return NOTHING_WRONG;
 }
 
@@ -152,6 +153,8 @@ static int wrong_together(const rlvc_config *config, const rlvc_domain *domain) 
         return WRONG_SUCCESSORS_DOMAIN;
     if (config->score == RLVC_SCORE_RANKS && (domain->oracle || config->capacity >= RLVC_RANKS_MAX))
         return WRONG_RANKS;
+    if (config->gate && (config->criterion != RLVC_CRITERION_RESIDUAL || domain->oracle))
+        return WRONG_GATE_CRITERION;
     return NOTHING_WRONG;
 }
 
@@ -177,7 +180,7 @@ static const char *message_of(int wrong) {
         [WRONG_CONTINUING] = "continuing must be 0 or 1",
         [WRONG_SUCCESSORS] = "successors must be 0 or 1",
         [WRONG_EXPLORE] = "explore must be one of RLVC_EXPLORE_*",
-        [WRONG_RESERVED] = "reserved must be 0",
+        [WRONG_GATE] = "gate must be 0 or 1",
         [WRONG_DISCOUNT] = "discount must be within [0, 1]",
         [WRONG_EPSILON] = "epsilon must be within [0, 1]",
         [WRONG_ALPHA] = "alpha must be within (0, 1]",
@@ -185,8 +188,11 @@ static const char *message_of(int wrong) {
         [WRONG_TOLERANCE] = "tolerance must be within (0, 1e12]",
         [WRONG_LEARNING_RATE] = "learning_rate must be within (0, 1]",
         [WRONG_OPTIMISTIC_VALUE] = "optimistic_value must be within [-1e12, 1e12]",
-        [WRONG_SUCCESSORS_DOMAIN] = "successors needs a domain with features_max within [1, features_at_once] and no oracle",
+        [WRONG_SUCCESSORS_DOMAIN] = "successors needs a domain with features_max within [1, "
+                                    "features_at_once] and no oracle",
         [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
+        [WRONG_GATE_CRITERION] = "gate needs the residual criterion, which compares actions, and a "
+                                 "domain with no oracle",
     };
     return messages[wrong];
 }

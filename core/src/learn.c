@@ -45,7 +45,7 @@ rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind) {
 rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion) {
     rlvc_searching made = {
         &agent->space,      &agent->replay, criterion, &agent->domain, agent->config.min_samples,
-        agent->config.score};
+        agent->config.score, agent->config.gate};
     return made;
 }
 

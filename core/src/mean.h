@@ -27,7 +27,7 @@ static inline void rlvc_sum_clear(rlvc_sum *total) {
 }
 
 /* Adds `weight` samples of value `term`; the weights of all samples add up to less than 2^32. */
-static inline void rlvc_sum_add(rlvc_sum *total, float term, uint32_t weight) {
+inline void rlvc_sum_add(rlvc_sum *total, float term, uint32_t weight) {
     float x = term * (float)weight;
     float s = total->sum + x;
     float v = s - total->sum;
@@ -39,7 +39,7 @@ static inline void rlvc_sum_add(rlvc_sum *total, float term, uint32_t weight) {
 }
 
 /* The mean of all samples; 0 if there is none. */
-static inline float rlvc_sum_mean(const rlvc_sum *total) {
+inline float rlvc_sum_mean(const rlvc_sum *total) {
     return total->weight == 0u ? 0.0f : (total->sum + total->rest) / (float)total->weight;
 }
 

@@ -27,7 +27,7 @@ static void pass_config(rlvc_stream *s, rlvc_config *config) {
     rlvc_stream_u8(s, &config->continuing);
     rlvc_stream_u8(s, &config->successors);
     rlvc_stream_u8(s, &config->explore);
-    rlvc_stream_u8(s, &config->reserved);
+    rlvc_stream_u8(s, &config->gate);
     rlvc_stream_float(s, &config->discount);
     rlvc_stream_float(s, &config->epsilon);
     rlvc_stream_float(s, &config->alpha);
@@ -292,7 +292,7 @@ static int same_config(const rlvc_config *a, const rlvc_config *b) {
            a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
            a->score == b->score && a->solver == b->solver && a->untried == b->untried &&
            a->continuing == b->continuing && a->successors == b->successors &&
-           a->explore == b->explore &&
+           a->explore == b->explore && a->gate == b->gate &&
            same_float(a->discount, b->discount) &&
            same_float(a->epsilon, b->epsilon) && same_float(a->alpha, b->alpha) &&
            same_float(a->alpha_known, b->alpha_known) &&

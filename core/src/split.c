@@ -5,7 +5,8 @@
  * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
  * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
  * group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
- * (TEST_ALONE, TEST_TOGETHER). */
+ * (TEST_ALONE, TEST_TOGETHER), and the split, with config.gate, must pass the gate (OPEN, GATE): if it does not, its
+ * feature is set aside and the candidates are gone through again. */
 #include "split.h"
 
 #include "real.h"
@@ -13,7 +14,21 @@
 #include "score.h"
 #include <string.h>
 
-enum { SORT, MARK, PROPOSE, DETECT, SCAN, CLOSE, ASK, ANSWER, TEST_ALONE, TEST_TOGETHER, DONE };
+enum {
+    SORT,
+    MARK,
+    PROPOSE,
+    DETECT,
+    SCAN,
+    CLOSE,
+    ASK,
+    ANSWER,
+    TEST_ALONE,
+    TEST_TOGETHER,
+    DONE,
+    OPEN,
+    GATE
+};
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
@@ -88,6 +103,16 @@ rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_s
     return domain->candidates(domain->ctx, view, first, space->features_at_once, space->features,
                               written) == 0 &&
                    *written <= space->features_at_once
+               ? RLVC_OK
+               : RLVC_E_CALLBACK;
+}
+
+rlvc_status rlvc_searching_look(const rlvc_searching *searching, uint32_t slot, const void *feature,
+                                uint8_t *present) {
+    const rlvc_domain *domain = searching->domain;
+    *present = 0;
+    return domain->exhibits(domain->ctx, rlvc_replay_percept(searching->replay, slot), feature,
+                            present) == 0
                ? RLVC_OK
                : RLVC_E_CALLBACK;
 }
@@ -205,17 +230,17 @@ static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searc
 /* One sample and the whole block by the feature detector. */
 static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *searching,
                                const rlvc_group *group, uint32_t *used) {
-    const rlvc_domain *domain = searching->domain;
-    const void *percept = rlvc_samples_percept(&search->view, group->begin + search->at);
-    uint64_t bit = (uint64_t)1 << search->at % 64u;
+    uint32_t slot = search->view.sample[group->begin + search->at].slot;
     for (uint32_t j = 0; j < search->block; j++) {
-        uint8_t present = 0;
-        if (domain->exhibits(domain->ctx, percept, rlvc_workspace_feature(searching->space, j),
-                             &present) != 0)
-            return RLVC_E_CALLBACK;
+        uint8_t present;
+        rlvc_status status = rlvc_searching_look(
+            searching, slot, rlvc_workspace_feature(searching->space, j), &present);
+        if (status != RLVC_OK)
+            return status;
         uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
         uint64_t *word = &column[group->word + search->at / 64u];
-        *word = (search->at % 64u == 0 ? 0 : *word & ~bit) | (present ? bit : 0);
+        uint64_t before = search->at % 64u == 0 ? 0 : *word;
+        *word = before | (uint64_t)(present != 0) << search->at % 64u;
     }
     search->at++;
     *used = search->block;
@@ -263,8 +288,14 @@ static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
     if (found->evidence > best->evidence ||
         (found->evidence == best->evidence && found->action < best->action)) {
         search->alone = *found;
+        search->alone_number = search->first + j;
         memcpy(space->alone, rlvc_workspace_feature(space, j), space->feature_bytes);
     }
+}
+
+/* Has the gate set candidate `number` aside? */
+static int is_refused(const rlvc_search *search, uint32_t number) {
+    return (int)(search->refused[number / 32u % 2u] >> number % 32u & 1u);
 }
 
 /* Takes the result of one column and goes on to the next, or to the next group. */
@@ -277,7 +308,7 @@ static void close_column(rlvc_search *search, const rlvc_searching *searching) {
         pool->degrees++;
         pool->log_tests += rlvc_ln((float)group->cuts);
     }
-    if (found->score > 0.0f) {
+    if (found->score > 0.0f && !is_refused(search, search->first + search->column)) {
         rlvc_single weighed = weigh(search, searching, found, size_of(group));
         pool->evidence += weighed.evidence;
         pool->statistic += searching->score == RLVC_SCORE_RANKS
@@ -299,6 +330,7 @@ static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
     search->features += pool->degrees > 0;
     if (pool->evidence > search->together.evidence) {
         search->together = *pool;
+        search->together_number = search->first + search->column;
         memcpy(space->together, rlvc_workspace_feature(space, search->column),
                space->feature_bytes);
     }
@@ -340,15 +372,15 @@ static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
 /* Looks for the oracle's feature in one sample; after the last, weighs it at the oracle's cutpoint. */
 static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_workspace *space = searching->space;
-    const rlvc_domain *domain = searching->domain;
     const rlvc_group *group = &space->group[search->action];
     rlvc_answer *answer = &search->inner.answer;
     uint32_t count = size_of(group), below = search->at;
     if (answer->at < count) {
-        uint8_t present = 0;
-        const void *percept = rlvc_samples_percept(&search->view, group->begin + answer->at);
-        if (domain->exhibits(domain->ctx, percept, space->features, &present) != 0)
-            return RLVC_E_CALLBACK;
+        uint8_t present;
+        uint32_t slot = search->view.sample[group->begin + answer->at].slot;
+        rlvc_status status = rlvc_searching_look(searching, slot, space->features, &present);
+        if (status != RLVC_OK)
+            return status;
         answer->present += present != 0;
         answer->present_below += present != 0 && answer->at < below;
         answer->at++;
@@ -368,11 +400,67 @@ static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) 
     return RLVC_OK;
 }
 
+/* ------------------------------------------------------------------ the gate */
+
+/* What is charged for a sample that the gate looks at: it is arithmetic. */
+#define GATE_UNITS 2u
+
+/* The p-values are there. What is surely chance need not come to the gate. */
+static uint32_t open_gate(rlvc_search *search, const rlvc_workspace *space) {
+    rlvc_split about;
+    const void *feature = rlvc_search_result(search, space, &about);
+    rlvc_gate_begin(&search->inner.gate, feature);
+    search->column =
+        about.action == space->actions ? search->together_number : search->alone_number;
+    search->action = 0;
+    enter(search, about.log_p < 0.0f ? GATE : DONE);
+    return RLVC_TEST_UNITS;
+}
+
+/* Sets the feature aside, and goes through the candidates again: what explains the targets best may be of no use
+ * to any action, and hide what is. */
+static void refuse(rlvc_search *search) {
+    search->refused[search->column / 32u % 2u] |= 1u << search->column % 32u;
+    search->alone.evidence = 0.0f;
+    search->alone.score = 0.0f;
+    search->together.evidence = 0.0f;
+    search->together.degrees = 0;
+    search->features = 0;
+    search->first = 0;
+    enter(search, PROPOSE);
+}
+
+/* One sample of the group at work; after the last, the group. */
+static rlvc_status gate(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_group *group = &searching->space->group[search->action];
+    rlvc_gate *gate = &search->inner.gate;
+    if (search->at < size_of(group)) {
+        uint8_t present;
+        const rlvc_sample *sample = &search->view.sample[group->begin + search->at];
+        rlvc_status status = rlvc_searching_look(searching, sample->slot, gate->feature, &present);
+        if (status != RLVC_OK)
+            return status;
+        rlvc_gate_add(gate, rlvc_target_of_key(sample->key), present != 0);
+        search->at++;
+        return RLVC_OK;
+    }
+    int passes = rlvc_gate_close(gate, searching->min_samples, searching->aliasing->gap);
+    search->at = 0;
+    if (++search->action < searching->space->actions)
+        return RLVC_OK;
+    if (passes)
+        enter(search, DONE);
+    else
+        refuse(search);
+    return RLVC_OK;
+}
+
 /* ------------------------------------------------------------------ the whole */
 
 /* Finds the p-value of one of the winners, if there are any. */
 static uint32_t test(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_pool *together = &search->together;
+    const uint8_t after = searching->gate ? OPEN : DONE;
     if (!(search->alone.evidence > 0.0f)) {
         enter(search, DONE);
         return 1;
@@ -382,11 +470,11 @@ static uint32_t test(rlvc_search *search, const rlvc_searching *searching) {
             (void)rlvc_chi2_survival(search->alone.score, 1, NULL, &search->alone_log_p);
         else
             search->alone_log_p = rlvc_table_log_p(&search->alone.table);
-        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : DONE);
+        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : after);
     } else {
         (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
                                  &search->together_log_p);
-        enter(search, DONE);
+        enter(search, after);
     }
     return RLVC_TEST_UNITS;
 }
@@ -420,6 +508,12 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
         return ask(search, searching);
     case ANSWER:
         return answer(search, searching);
+    case OPEN:
+        *used = open_gate(search, searching->space);
+        return RLVC_OK;
+    case GATE:
+        *used = GATE_UNITS;
+        return gate(search, searching);
     default:
         *used = test(search, searching);
         return RLVC_OK;
@@ -470,6 +564,8 @@ void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]) {
     word[2] = search->at;
     word[3] = search->first;
     word[4] = search->column;
+    word[8] = search->refused[0];
+    word[9] = search->refused[1];
     if (search->phase == SORT)
         rlvc_sort_mark(&search->inner.sort, word + 5);
     else if (search->phase == SCAN)

@@ -23,13 +23,19 @@
  *              For what tells two situations apart mostly shows after each action, a little.
  * The lower p-value is the split's; where there is more than one group, so that two were made, it is
  * corrected by 2 (all these are Bonferroni's). F counts the features that divide some group. Under the
- * returns criterion a class has one group, its greedy action's, and the split is the published one. */
+ * returns criterion a class has one group, its greedy action's, and the split is the published one.
+ *
+ * With config.gate the split must also raise the estimated return (gate.h). If it does not, the feature is set
+ * aside and the best of the others is looked for, until one passes or none is left whose corrected p-value is below
+ * 1. F counts those set aside, too, for they were tried. Of more than 64 candidates, what is set aside are all whose
+ * numbers differ by multiples of 64, so that this takes a bit each and an end. */
 #ifndef RLVC_SRC_SPLIT_H
 #define RLVC_SRC_SPLIT_H
 
 #include "aliasing.h"
 #include "cutpoint.h"
 #include "fisher.h"
+#include "gate.h"
 #include "sort.h"
 
 /* The samples of the class after one action. */
@@ -103,6 +109,7 @@ typedef struct rlvc_search {
         rlvc_sort sort;
         rlvc_scan scan;
         rlvc_answer answer;
+        rlvc_gate gate;
     } inner;
     rlvc_single alone;
     rlvc_pool together;
@@ -116,7 +123,10 @@ typedef struct rlvc_search {
     uint32_t lowest;    /* the key that began the present cluster of targets */
     uint32_t first;     /* number of the block's first candidate */
     uint32_t block;     /* candidates in the block */
-    uint32_t column;    /* of the block */
+    uint32_t column;    /* of the block; at the gate: the number of its candidate */
+    uint32_t refused[2]; /* by the gate: bit n % 64 for candidate n */
+    uint32_t alone_number; /* the winners' numbers among the candidates */
+    uint32_t together_number;
     float alone_log_p;    /* of the winners' statistics, not yet corrected */
     float together_log_p;
     uint8_t phase;
@@ -131,6 +141,7 @@ typedef struct rlvc_searching {
     const rlvc_domain *domain;
     uint32_t min_samples;
     uint8_t score;
+    uint8_t gate; /* config.gate */
 } rlvc_searching;
 
 /* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes the class,
@@ -144,14 +155,20 @@ uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *fi
 rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_samples *view,
                                    uint32_t first, uint32_t *written);
 
+/* Does the percept in a slot exhibit a feature?
+ * @return RLVC_OK; RLVC_E_CALLBACK. */
+rlvc_status rlvc_searching_look(const rlvc_searching *searching, uint32_t slot, const void *feature,
+                                uint8_t *present);
+
 /* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the workspace's
  * samples. O(actions). */
 void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for each
  * sample marked or detected (with up to 64 features; without detect(), for each feature of each sample),
- * what sorting and the scan of each column are charged, one for each feature of a block, and
- * RLVC_TEST_UNITS for each of the two p-values.
+ * what sorting and the scan of each column are charged, one for each feature of a block,
+ * RLVC_TEST_UNITS for each of the two p-values and for coming to the gate, two there for each sample
+ * and action.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);

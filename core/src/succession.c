@@ -51,19 +51,16 @@ static uint64_t *now_column(const rlvc_succession *succession, const rlvc_worksp
 static rlvc_status look(const rlvc_succession *succession, const rlvc_searching *searching,
                         uint32_t i, uint8_t *present) {
     const rlvc_replay *replay = searching->replay;
-    const rlvc_domain *domain = searching->domain;
     uint32_t slot = succession->view.sample[i].slot;
     uint32_t j = succession->phase == NOW ? succession->now : succession->next;
-    *present = 0;
     if (succession->phase == NEXT) {
+        *present = 0;
         if (!rlvc_replay_linked(replay, slot))
             return RLVC_OK;
         slot = rlvc_replay_next(replay, slot);
     }
-    return domain->exhibits(domain->ctx, rlvc_replay_percept(replay, slot),
-                            rlvc_workspace_feature(searching->space, j), present) == 0
-               ? RLVC_OK
-               : RLVC_E_CALLBACK;
+    return rlvc_searching_look(searching, slot, rlvc_workspace_feature(searching->space, j),
+                               present);
 }
 
 /* A column is complete. */

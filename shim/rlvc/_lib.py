@@ -130,7 +130,7 @@ class Config(c.Structure):
         ("continuing", c.c_uint8),
         ("successors", c.c_uint8),
         ("explore", c.c_uint8),
-        ("reserved", c.c_uint8),
+        ("gate", c.c_uint8),
         ("discount", c.c_float),
         ("epsilon", c.c_float),
         ("alpha", c.c_float),

@@ -71,6 +71,9 @@ class Config:
         How to explore: one action in two leads to the nearest class-action pair that was little tried,
         the other is drawn with preference for what was seldom tried in the class; or all alike, as
         published.
+    gate : bool
+        Whether a class is split by its targets only if that raises the estimated return (residual
+        criterion; not with an own oracle). Splits by what follows are left alone.
     discount : float
         gamma of equation (1), [0, 1].
     epsilon : float
@@ -108,6 +111,7 @@ class Config:
     continuing: bool = False
     successors: bool | None = None
     explore: Explore = "directed"
+    gate: bool = False
     discount: float = 0.9
     epsilon: float = 0.9
     alpha: float = 0.01

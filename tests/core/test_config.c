@@ -61,6 +61,7 @@ static void test_defaults(void **state) {
     assert_int_equal(config.solver, RLVC_SOLVER_VALUE_ITERATION);
     assert_int_equal(config.untried, RLVC_UNTRIED_EXCLUDED);
     assert_int_equal(config.continuing, 0);
+    assert_int_equal(config.gate, 0);
     const float numbers[] = {config.discount,  config.epsilon,       config.alpha,
                              config.alpha_known, config.tolerance, config.learning_rate, config.optimistic_value};
     const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f, 0.0f};
@@ -123,7 +124,7 @@ static void test_choices(void **state) {
         {"continuing", &config.continuing, 1},
         {"successors", &config.successors, 1},
         {"explore", &config.explore, 1},
-        {"reserved", &config.reserved, 0},
+        {"gate", &config.gate, 1},
     };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
         for (uint32_t value = 0; value <= UINT8_MAX; value++) {
@@ -241,12 +242,29 @@ static void test_ranks(void **state) {
     expect("ranks", "ranks with an oracle");
 }
 
+/* The gate compares the actions of a class, and sets candidates aside. */
+static void test_gate(void **state) {
+    (void)state;
+    make();
+    config.gate = 1;
+    expect(NULL, "the residual criterion");
+    config.criterion = RLVC_CRITERION_RETURNS;
+    expect("gate", "the returns criterion");
+    config.gate = 0;
+    expect(NULL, "no gate");
+    config.criterion = RLVC_CRITERION_RESIDUAL;
+    config.gate = 1;
+    domain.oracle = oracle;
+    expect("gate", "an own oracle");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults), cmocka_unit_test(test_null),
         cmocka_unit_test(test_counts),   cmocka_unit_test(test_choices),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_callbacks),
         cmocka_unit_test(test_successors), cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_gate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,6 +54,8 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.alpha_known = 0.3f;
     agent->config.successors = l->form != OWN_ORACLE && l->score != RLVC_SCORE_GINI;
     agent->config.features_at_once = agent->config.successors ? 6 : 2;
+    agent->config.gate = l->criterion == RLVC_CRITERION_RESIDUAL && l->form != OWN_ORACLE &&
+                         l->score == RLVC_SCORE_GAIN;
     player_init(agent);
     for (uint32_t i = 0; i < steps; i++) {
         player_play(agent, 240);
@@ -241,6 +243,61 @@ static void test_slices_of_what_follows(void **state) {
             assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
         } while (!progress.done);
         assert_memory_equal(p.block, other.block, sizeof p.block);
+    }
+}
+
+/* ------------------------------------------------------------------ the value gate */
+
+/* A class in which bit 0 tells what each action is worth, and bit 4 which of two is better: the gate sets the one
+ * aside and lets the other pass. */
+static void prepare_gate(int form) {
+    player_enter_world(&p, form);
+    p.config.actions = 2;
+    p.config.features_at_once = 4;
+    p.config.gate = 1;
+    player_init(&p);
+    for (uint32_t i = 0; i < 256u; i++) {
+        const unsigned char percept = (unsigned char)(i / 4u);
+        const rlvc_choice choice = {(uint8_t)(i / 2u % 2u), 0};
+        const float reward =
+            (float)(percept & 1u) * 1.5f + (float)((percept >> 4 & 1u) == choice.action);
+        assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
+        assert_int_equal(rlvc_observe(p.agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
+    }
+    player_save(&p);
+    player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
+    assert_int_equal(player_stats(&p).classes, 2);
+    memcpy(other.block, p.block, sizeof p.block);
+}
+
+static void test_slices_of_the_gate(void **state) {
+    (void)state;
+    for (int form = BATCH; form <= ONE_BY_ONE; form++) {
+        prepare_gate(form);
+        for (uint32_t budget = RLVC_BUDGET_MIN; budget < RLVC_BUDGET_MIN + 8u; budget++) {
+            rlvc_progress progress;
+            player_restore(&p);
+            do {
+                assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
+                assert_true(progress.work <= budget);
+            } while (!progress.done);
+            assert_memory_equal(p.block, other.block, sizeof p.block);
+        }
+    }
+}
+
+static void test_callbacks_of_the_gate_fail(void **state) {
+    (void)state;
+    for (int form = BATCH; form <= ONE_BY_ONE; form++) {
+        prepare_gate(form);
+        const uint64_t calls = p.faulty.calls;
+        assert_true(calls > 256u); /* each sample comes to the gate at least once */
+        for (uint64_t n = 1; n <= calls; n++) {
+            learn_with_failure(n);
+            if (memcmp(p.block, other.block, sizeof p.block) != 0)
+                fail_msg("%s: another result after callback %u failed", form_names[form],
+                         (unsigned)n);
+        }
     }
 }
 
@@ -466,6 +523,8 @@ int main(void) {
         cmocka_unit_test(test_too_many_candidates),
         cmocka_unit_test(test_candidates_of_what_follows),
         cmocka_unit_test(test_slices_of_what_follows),
+        cmocka_unit_test(test_slices_of_the_gate),
+        cmocka_unit_test(test_callbacks_of_the_gate_fail),
         cmocka_unit_test(test_detectors_and_blocks),
         cmocka_unit_test(test_every_slot_terminated),
         cmocka_unit_test(test_full_tree),

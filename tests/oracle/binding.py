@@ -25,7 +25,7 @@ Domain = struct("Domain", ctx=POINTER, percept_bytes=U32, feature_bytes=U32, fea
                 exhibits=POINTER, candidates=POINTER, detect=POINTER, oracle=POINTER, name=POINTER)
 Config = struct("Config", actions=U32, capacity=U32, classes=U32, features_at_once=U32,
                 min_samples=U32, max_sweeps=U32, seed=U32, criterion=U8, score=U8, solver=U8,
-                untried=U8, continuing=U8, successors=U8, explore=U8, reserved=U8, discount=FLOAT, epsilon=FLOAT,
+                untried=U8, continuing=U8, successors=U8, explore=U8, gate=U8, discount=FLOAT, epsilon=FLOAT,
                 alpha=FLOAT, alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT, optimistic_value=FLOAT)
 Choice = struct("Choice", action=U8, exploited=U8)
 Progress = struct("Progress", work=U32, rounds=U32, splits=U32, done=U8, reserved=U8 * 3)

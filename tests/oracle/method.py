@@ -286,6 +286,12 @@ class Search:
     def __bool__(self):
         return any(x.evidence > 1e-9 for x in self.alone)
 
+    def without(self, features):
+        """The gate has set some features aside, which were looked at nonetheless."""
+        return Search([x for x in self.alone if x.feature not in features],
+                      {f: x for f, x in self.together.items() if f not in features},
+                      self.groups, self.log_features, self.kind)
+
     def correction(self):
         """Two winners are compared where there is more than one group."""
         return numpy.log(2) if len(self.groups) > 1 else 0.0
@@ -331,6 +337,26 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
 def log_pairs(f, g, features):
     """What a pair's p-value is corrected by: the pairs g = f have half of the level."""
     return numpy.log(2 * features * (1 if f == g else features - 1))
+
+
+def gate_margins(present, actions, targets, action_count, min_samples, near):
+    """By how much the best of the actions is surely worth more than the class's greedy one, on the better
+    side of a split: two standard errors off each mean. The least and the greatest, over the actions that
+    are greedy to within `near`."""
+    means = numpy.full(action_count, -numpy.inf)
+    lower = numpy.full((action_count, 2), -numpy.inf)
+    upper = numpy.full((action_count, 2), numpy.inf)
+    for action in range(action_count):
+        mine = actions == action
+        means[action] = targets[mine].mean() if mine.any() else -numpy.inf
+        for side in range(2):
+            x = targets[mine & (present == side)]
+            if len(x) >= min_samples:
+                reach = 2 * numpy.sqrt(x.var() / len(x))
+                lower[action, side], upper[action, side] = x.mean() - reach, x.mean() + reach
+    greedy = numpy.flatnonzero(means >= means.max() - near)
+    margins = [(lower.max(axis=0) - upper[g]).max() for g in greedy]
+    return min(margins), max(margins)
 
 
 def level(alpha, step, successors):

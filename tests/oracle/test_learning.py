@@ -96,7 +96,9 @@ class Learner:
         def search(mine):
             found = method.search(percepts[mine], actions[mine], targets[mine], self.config.actions,
                                   gap, self.config.score, self.config.min_samples)
-            return self.allowed(found) if found else []
+            if not self.config.gate:
+                return self.allowed(found) if found else []
+            return self.gated(found, percepts[mine], actions[mine], targets[mine], gap) if found else []
 
         def follow(mine):
             return self.following(method.follow(percepts[mine], nexts[mine], actions[mine],
@@ -119,6 +121,21 @@ class Learner:
             if splits:
                 return True
         return False
+
+    def gated(self, found, percepts, actions, targets, gap, refused=frozenset()):
+        """The splits that the method allows once those are set aside that raise no return. What the core's
+        values cannot tell from the margin may go either way."""
+        left, result = found.without(refused), []
+        near = 4 * self.config.tolerance + 1e-4 * (1 + numpy.abs(targets).max())
+        for x in self.allowed(left) if left else []:
+            least, most = method.gate_margins(percepts[:, x["bit"]], actions, targets,
+                                              self.config.actions, self.config.min_samples, near)
+            if x["log_p"] > -NUMBERS or most > gap - near:
+                result.append(x)
+            if x["log_p"] < 0 and least < gap + near:
+                others = self.gated(found, percepts, actions, targets, gap, refused | {x["bit"]})
+                result += others or [{**x, "bit": None, "log_p": 0.0}]  # or none at all
+        return result
 
     # -------------------------------------------------------------- one class
 
@@ -270,7 +287,7 @@ def test_random_residual(seed):
         criterion=method.RESIDUAL, score=seed % 4, alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
         tolerance=1e-4, discount=float(rng.choice([0.0, 0.5, 0.9])), solver=[0, 1, 4][seed % 3 - seed % 2],
         min_samples=int(rng.integers(2, 20)), untried=seed // 3 % 2, optimistic_value=3.0,
-        features_at_once=1 + seed % 7)
+        features_at_once=1 + seed % 7, gate=seed % 2)
     for _ in range(2):
         fill(learner, rng, int(rng.integers(5, 250)), levels=int(rng.choice([1, 3, 30])))
         learner.learn()
@@ -312,6 +329,20 @@ def test_nothing_pays(seed):
     assert learner.learn() == 3
     assert {bit for _, bit in learner.agent.splits()} == {1, 4}
     assert all(split.action == 3 for split, _ in learner.agent.splits())
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_gate(seed):
+    """Two bits say what every action is worth, one which is the best: the tree tests that one alone."""
+    rng = numpy.random.default_rng(5000 + seed)
+    learner = Learner(6, 3, capacity=1000, gate=1, features_at_once=1 + seed % 6)
+    for _ in range(900):
+        percept, action = rng.integers(0, 2, 6), int(rng.integers(3))
+        learner.begin(percept)
+        worth = 0.8 * percept[0] + 0.6 * percept[5] + (action == 2 * percept[3])
+        learner.observe(action, 0, worth + float(rng.normal()) / 4, None, TERMINATED)
+    assert learner.learn() == 1
+    assert learner.agent.splits()[0][1] == 3
 
 
 @pytest.mark.parametrize("seed", range(60))

@@ -49,7 +49,7 @@ def test_help(tmp_path, arguments):
 
 def test_help_names_every_option(tmp_path):
     text = run("binary", "--help", cwd=tmp_path).stdout
-    for option in ("learner criterion score interactions steps gamma epsilon alpha alpha-known successors seed runs maze slip distractors "
+    for option in ("learner criterion score interactions steps gamma epsilon alpha alpha-known successors gate seed runs maze slip distractors "
                    "classes capacity json dot export-c help version").split():
         assert re.search(rf"--{option}\b", text), option
 
@@ -99,6 +99,7 @@ def check_refused(done, *parts):
     (["binary", "--alpha-known", "2"], ["--alpha-known", "(0, 1]"]),
     (["binary", "--successors", "maybe"], ["--successors", "yes", "no"]),
     (["binary", "--successors", "yes", "--distractors", "60"], ["successors"]),
+    (["binary", "--gate", "--criterion", "returns"], ["gate", "residual"]),
     (["binary", "--slip", "2"], ["--slip"]),
     (["binary", "--slip", "nan"], ["--slip"]),
     (["binary", "--slip", ""], ["--slip"]),

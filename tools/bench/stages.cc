@@ -74,7 +74,7 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     replay.percept_bytes = percept_bytes;
     rlvc_aliasing aliasing = {};
     const rlvc_searching searching = {&space,  &replay, &aliasing,
-                                      &domain, config.min_samples, config.score};
+                                      &domain, config.min_samples, config.score, config.gate};
     const uint32_t first[2] = {0, config.capacity};
     rlvc_search search;
     rlvc_search_begin(&search, &searching, first);

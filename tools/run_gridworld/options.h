@@ -23,6 +23,7 @@ struct Options {
     float alpha = 0.0f;       // 0: see settle()
     float alpha_known = 0.0f; // likewise
     int successors = -1;      // negative: likewise
+    bool gate = false;
     uint32_t seed = 1;        // of the first run; each further run takes the next number
     uint32_t runs = 0;        // 0: one run, shown in full
     std::string maze;         // a file; empty: Sutton's maze

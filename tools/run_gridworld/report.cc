@@ -45,6 +45,7 @@ Json describe_options(const Options &options) {
             {"alpha", shortest(options.alpha)},
             {"alpha_known", shortest(options.alpha_known)},
             {"successors", options.successors > 0 ? "yes" : "no"},
+            {"gate", options.gate ? "yes" : "no"},
             {"seed", options.seed},
             {"maze", options.maze.empty() ? Json(nullptr) : Json(options.maze)},
             {"slip", shortest(options.slip)},

@@ -118,11 +118,11 @@ std::string describe_task(const Options &options, const gridworld_maze &maze) {
         grouped(returns ? options.interactions : options.interactions / options.steps).c_str(),
         returns ? ", fresh ones in each" : "");
     const bool by_gain = options.score == RLVC_SCORE_GAIN;
-    text += format("          gamma %g, epsilon %g, alpha %g, of known bits %g%s%s%s, seed %u\n",
+    text += format("          gamma %g, epsilon %g, alpha %g, of known bits %g%s%s%s%s, seed %u\n",
                    double{options.gamma}, double{options.epsilon}, double{options.alpha},
                    double{options.alpha_known}, options.successors > 0 ? ", successors" : "",
-                   by_gain ? "" : ", score ", by_gain ? "" : score_name(options),
-                   options.seed);
+                   options.gate ? ", gate" : "", by_gain ? "" : ", score ",
+                   by_gain ? "" : score_name(options), options.seed);
     text += format("Memory    %s bytes: %s interactions, %s classes\n",
                    grouped(learner_bytes(options, maze)).c_str(), grouped(options.capacity).c_str(),
                    grouped(options.classes).c_str());

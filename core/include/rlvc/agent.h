@@ -88,7 +88,17 @@ typedef struct rlvc_config {
                                   into features_at_once; not with an own oracle). Default 1 for bits, if
                                   there are no more than 64, else 0 */
     uint8_t explore;           /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
-    uint8_t reserved;          /* 0 */
+    uint8_t gate;              /* 1: the value gate. A class is split by its targets only if that raises the
+                                  estimated return: if on one side of the split another action than the
+                                  greedy one of the class is worth more, by more than twice the standard
+                                  errors of both together and twice the tolerance; an action with fewer than
+                                  min_samples there does not count (SPEC.md). A feature that does not is set
+                                  aside for the next best. Splits by what follows (successors) raise no
+                                  return by themselves and are left alone. So the tree tells no situations
+                                  apart that are worth different amounts and ask for the same action; but
+                                  what only several tests together make useful is not found, and without
+                                  successors learning can stop before it begins (DESIGN.md). Residual
+                                  criterion only; not with an own oracle. Default 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
     float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
     float alpha;               /* the probability that the tree ever takes up a feature while there is
