@@ -37,7 +37,7 @@ static int passes(float gap) {
 
 /* By how much the best lower bound of a side exceeds the upper one of the greedy action, on the better side. */
 static double margin(void) {
-    double most[2] = {-INFINITY, -INFINITY}, enough[2] = {INFINITY, INFINITY}, highest = -INFINITY;
+    double most[2] = {-HUGE_VAL, -HUGE_VAL}, enough[2] = {HUGE_VAL, HUGE_VAL}, highest = -HUGE_VAL;
     for (uint32_t a = 0; a < ACTIONS; a++) {
         double upper[2], total = 0.0;
         for (uint32_t s = 0; s < 2u; s++) {
@@ -48,7 +48,7 @@ static double margin(void) {
             total += sum;
             for (uint32_t i = 0; i < n; i++)
                 squares += pow((double)class.target[a][s][i] - sum / n, 2);
-            upper[s] = INFINITY;
+            upper[s] = HUGE_VAL;
             if (n >= MIN_SAMPLES) {
                 double reach = (double)RLVC_GATE_DEVIATIONS * sqrt(squares / n / n);
                 upper[s] = sum / n + reach;
