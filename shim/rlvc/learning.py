@@ -455,7 +455,7 @@ def learn(
     **config
         Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
         million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with trials,
-        ``min_samples`` 64.
+        ``min_samples`` 64. Where the world changes, a smaller ``capacity`` forgets sooner what was.
 
     Returns
     -------
