@@ -25,9 +25,9 @@ enum {
     ANSWER,
     TEST_ALONE,
     TEST_TOGETHER,
-    DONE,
     OPEN,
-    GATE
+    GATE,
+    DONE
 };
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
