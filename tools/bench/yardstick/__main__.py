@@ -51,9 +51,9 @@ def main():
     jobs = _jobs(args, learners)
     records, ended = runs.run_all(jobs, args.jobs)
     done = [record for record in records if "error" not in record]
+    print(table.render(done, args.tasks, learners), flush=True)
     if args.json:
         _write_whole(args.json, {"ended": ended, "missing": absent, "runs": records})
-    print(table.render(done, args.tasks, learners))
     for name, packages in absent.items():
         needed = ", ".join(packages)
         print(f"- missing: {options.LEARNERS[name]}, which needs {needed}: tools/setup peers")

@@ -116,7 +116,7 @@ def learn_fqi(task, seed, check, trees=50, rounds=50, checks=1):
             targets = r + task.discount * np.where(ended, 0.0, values(reached).max(axis=1))
         check(done, lambda rows: values(rows).argmax(axis=1))
     nodes = sum(tree.tree_.node_count for tree in model.estimators_)
-    leaves = sum(tree.get_n_leaves() for tree in model.estimators_)
+    leaves = sum(int(tree.get_n_leaves()) for tree in model.estimators_)
     return {"leaves": leaves, "bytes": nodes * 64}
 
 
