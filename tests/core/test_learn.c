@@ -196,22 +196,27 @@ static int none(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t
     return 0;
 }
 
+/* Interactions without a reward, whose percept changes at every tenth: what follows is foretold by it. */
+static void change_seldom(uint32_t interactions) {
+    const rlvc_choice choice = {0, 1};
+    for (uint32_t i = 0; i < interactions; i++) {
+        unsigned char percept = (unsigned char)(i / 10u % 2u);
+        if (i == 0)
+            assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
+        assert_int_equal(rlvc_observe(p.agent, choice, 0.0f, &percept, RLVC_GOES_ON), RLVC_OK);
+    }
+}
+
 /* While all rewards are equal, it is the search by what follows that asks for candidates. */
 static void test_candidates_of_what_follows(void **state) {
     (void)state;
     for (int nothing = 0; nothing < 2; nothing++) {
-        const rlvc_choice choice = {0, 1};
         rlvc_progress progress;
         player_enter_world(&p, BATCH);
         p.domain.candidates = nothing ? none : too_many;
         p.config.successors = 1;
         player_init(&p);
-        for (uint32_t i = 0; i < 100u; i++) {
-            unsigned char percept = (unsigned char)(i / 10u % 2u);
-            if (i == 0)
-                assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
-            assert_int_equal(rlvc_observe(p.agent, choice, 0.0f, &percept, RLVC_GOES_ON), RLVC_OK);
-        }
+        change_seldom(100);
         assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_UNBOUNDED, &progress),
                          nothing ? RLVC_OK : RLVC_E_CALLBACK);
         assert_int_equal(rlvc_agent_check(p.agent), RLVC_OK);
@@ -222,17 +227,11 @@ static void test_candidates_of_what_follows(void **state) {
 /* A table of several words, cut between them. */
 static void test_slices_of_what_follows(void **state) {
     (void)state;
-    const rlvc_choice choice = {0, 1};
     rlvc_progress progress;
     player_enter_world(&p, BATCH);
     p.config.successors = 1;
     player_init(&p);
-    for (uint32_t i = 0; i < 250u; i++) {
-        unsigned char percept = (unsigned char)(i / 10u % 2u);
-        if (i == 0)
-            assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
-        assert_int_equal(rlvc_observe(p.agent, choice, 0.0f, &percept, RLVC_GOES_ON), RLVC_OK);
-    }
+    change_seldom(250);
     player_save(&p);
     player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
     assert_true(player_stats(&p).classes > 1u);

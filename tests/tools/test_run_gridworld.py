@@ -100,6 +100,7 @@ def check_refused(done, *parts):
     (["binary", "--successors", "maybe"], ["--successors", "yes", "no"]),
     (["binary", "--successors", "yes", "--distractors", "60"], ["successors"]),
     (["binary", "--gate", "--criterion", "returns"], ["gate", "residual"]),
+    (["binary", "--gate=2"], ["--gate: takes no value"]),
     (["binary", "--slip", "2"], ["--slip"]),
     (["binary", "--slip", "nan"], ["--slip"]),
     (["binary", "--slip", ""], ["--slip"]),

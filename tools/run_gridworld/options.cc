@@ -133,10 +133,11 @@ void add_learning(CLI::App &binary, Options &options) {
             "criterion)")
         ->type_name("ANSWER")
         ->check(one_of({"yes", "no"}));
-    binary.add_flag(
-        "--gate", options.gate,
-        "split a class by its targets only if that raises the estimated return (residual "
-        "criterion)");
+    binary
+        .add_flag("--gate", options.gate,
+                  "split a class by its targets only if that raises the estimated return (residual "
+                  "criterion)")
+        ->disable_flag_override();
     binary
         .add_option("--classes", options.classes,
                     "classes the tree may grow to (4 for 3 cells, at least 64)")

@@ -16,6 +16,7 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain) {
     config.alpha = options.alpha;
     config.alpha_known = options.alpha_known;
     config.score = options.score;
+    config.gate = options.gate;
     config.discount = 0.0f;
     config.successors = 0; // nothing follows
     return config;

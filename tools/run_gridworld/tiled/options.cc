@@ -117,7 +117,7 @@ void add_learning(CLI::App &app, TiledOptions &options) {
     add(app, "--gamma", options.gamma, 0, 0.999f, "discount of future rewards (0.9)");
     add(app, "--epsilon", options.epsilon, 0, 1, "probability of exploring (returns: 0.8, else 1)");
     add(app, "--alpha", options.alpha, 1e-30f, 1,
-        "a split's corrected p-value is below this (0.005)");
+        "probability that a run with nothing to learn takes up a feature, at most (0.005)");
     add(app, "--classes", options.classes, 1, 65535, "classes the tree may grow to (four a cell)");
     add(app, "--seed", options.seed, 0, UINT32_MAX, "of everything random (1)");
     add(app, "--runs", options.runs, 1, 100000, "runs with the seeds from --seed on (1)");
