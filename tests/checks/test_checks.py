@@ -18,10 +18,10 @@ class Tree:
     def __init__(self, folder):
         self.folder = folder
         shutil.copytree(CHECKS, folder / "tools/check")
-        for name in ("core/include/rlvc", "core/src", "core/domains"):
+        for name in ("core/include/rlvc", "core/src/base", "core/domains"):
             (folder / name).mkdir(parents=True)
         self.write("core/include/rlvc/rng.h", "RLVC_API int rlvc_next(int n);\n")
-        self.write("core/src/rng.c", "int rlvc_next(int n) { return n + 1; }\n")
+        self.write("core/src/base/rng.c", "int rlvc_next(int n) { return n + 1; }\n")
 
     def write(self, name, text):
         (self.folder / name).write_text(LICENCE + text, encoding="utf-8")
@@ -33,16 +33,16 @@ class Tree:
                               text=True)
         return done.returncode, done.stdout
 
-    def floors(self, floors):
+    def rooms(self, *rooms):
         path = self.folder / "tools/check/sources.py"
         text = path.read_text(encoding="utf-8")
-        begin = text.index("FLOORS = {")
-        end = text.index("}", begin) + 1
-        path.write_text(f"{text[:begin]}FLOORS = {floors!r}{text[end:]}", encoding="utf-8")
+        begin = text.index("ROOMS = (")
+        end = text.index(")", begin) + 1
+        path.write_text(f"{text[:begin]}ROOMS = {rooms!r}{text[end:]}", encoding="utf-8")
 
     def archive(self):
         objects = []
-        for source in (self.folder / "core/src").glob("*.c"):
+        for source in (self.folder / "core/src").rglob("*.c"):
             objects.append(str(source.with_suffix(".o")))
             subprocess.run(["gcc", "-O2", "-c", source, "-o", objects[-1]], check=True)
         subprocess.run(["ar", "rcs", self.folder / "core.a", *objects], check=True)
@@ -55,36 +55,42 @@ def tree(tmp_path):
 
 
 @pytest.mark.parametrize("header, text, fault", [
-    ("tree.h", "int a;\n", None),
-    ("rng.h", '#include "tree.h"\n', 'rng.h:2: floor 0 includes "tree.h" of floor 2'),
-    ("rng.h", '#include "rlvc/rng.h"\n#include <stdint.h>\n', None),
-    ("rng.h", '#include "rlvc/none.h"\n', "is no public header"),
-    ("rng.h", "#include <stdlib.h>\n", "rng.h:2: includes <stdlib.h>"),
-    ("rng.h", "/* a double */\n", None),
-    ("rng.h", "double a;\n", "rng.h:2: a double: double"),
-    ("rng.h", "static const float a = 1.5f, b = 0x1.8p+1f, c = 1e-3f, d = .5f;\n", None),
-    ("rng.h", "static const unsigned a = 0x1e3u;\n", None),
-    ("rng.h", "static const float a = 1.5;\n", "rng.h:2: a double: 1.5"),
-    ("rng.h", "static const float a = 1e-3;\n", "rng.h:2: a double: 1e-3"),
-    ("rng.h", "static const float a = 0x1.8p3;\n", "rng.h:2: a double: 0x1.8p3"),
-    ("other.h", "int a;\n", "has no floor yet"),
+    ("base/mean.h", '#include "rng.h"\n', None),
+    ("tree/tree.h", '#include "../base/rng.h"\n', None),
+    ("base/rng.h", '#include "../tree/tree.h"\n', 'base/rng.h:2: room base includes "../tree/tree.h"'),
+    ("base/rng.h", '#include "none.h"\n', "does not exist"),
+    ("base/rng.h", '#include "rlvc/rng.h"\n#include <stdint.h>\n', None),
+    ("base/rng.h", '#include "rlvc/none.h"\n', "is no public header"),
+    ("base/rng.h", "#include <stdlib.h>\n", "rng.h:2: includes <stdlib.h>"),
+    ("base/rng.h", "/* a double */\n", None),
+    ("base/rng.h", "double a;\n", "rng.h:2: a double: double"),
+    ("base/rng.h", "static const float a = 1.5f, b = 0x1.8p+1f, c = 1e-3f, d = .5f;\n", None),
+    ("base/rng.h", "static const unsigned a = 0x1e3u;\n", None),
+    ("base/rng.h", "static const float a = 1.5;\n", "rng.h:2: a double: 1.5"),
+    ("base/rng.h", "static const float a = 1e-3;\n", "rng.h:2: a double: 1e-3"),
+    ("base/rng.h", "static const float a = 0x1.8p3;\n", "rng.h:2: a double: 0x1.8p3"),
+    ("other.h", "int a;\n", "lies in no room"),
+    ("other/other.h", "int a;\n", "lies in no room"),
 ])
 def test_sources(tree, header, text, fault):
-    tree.floors({"rng": 0, "tree": 2})
-    tree.write("core/src/tree.c", '#include "rng.h"\n')
+    tree.rooms("base", "tree")
+    for folder in ("tree", "other"):
+        (tree.folder / "core/src" / folder).mkdir()
+    for name in ("base/rng.h", "tree/tree.h"):
+        tree.write(f"core/src/{name}", "int a;\n")
     tree.write(f"core/src/{header}", text)
     status, output = tree.check("sources")
     assert status == (1 if fault else 0), output
     assert (fault or " 0 faults") in output
 
 
-def test_sources_misses_a_licence_and_a_file(tree):
-    tree.floors({"rng": 0, "gone": 1})
-    (tree.folder / "core/src/rng.c").write_text("\n", encoding="utf-8")
+def test_sources_misses_a_licence_and_a_room(tree):
+    tree.rooms("base", "gone")
+    (tree.folder / "core/src/base/rng.c").write_text("\n", encoding="utf-8")
     status, output = tree.check("sources")
     assert status == 1
     assert "rng.c:1: does not begin with its licence" in output
-    assert "FLOORS names gone" in output
+    assert "core/src/gone: listed" in output
 
 
 @pytest.mark.parametrize("text, fault", [
@@ -116,20 +122,20 @@ def test_symbols(tree, text, fault):
     ("int rlvc_other(int n) { return n; }", "rlvc_next is declared in a public header"),
 ])
 def test_stack_faults(tree, text, fault):
-    tree.write("core/src/rng.c", text)
+    tree.write("core/src/base/rng.c", text)
     status, output = tree.check("stack", "--write")
     assert status == 1
     assert fault in output
 
 
 def test_stack_goes_stale(tree):
-    tree.write("core/src/rng.c", "struct d { int (*exhibits)(int); };\n"
+    tree.write("core/src/base/rng.c", "struct d { int (*exhibits)(int); };\n"
                "int rlvc_next(int n) { volatile char a[64] = {1}; return n + a[n]; }\n")
     assert tree.check("stack")[0] == 1
     assert tree.check("stack", "--write") == (0, "")
     assert tree.check("stack") == (0, "")
     # The bytes of a larger array, and a callback, show.
-    tree.write("core/src/rng.c", "struct d { int (*exhibits)(int); } *d;\n"
+    tree.write("core/src/base/rng.c", "struct d { int (*exhibits)(int); } *d;\n"
                "int rlvc_next(int n) { volatile char a[1024] = {1};\n"
                "    return d->exhibits(n) + a[n]; }\n")
     assert tree.check("stack")[0] == 1

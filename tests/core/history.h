@@ -7,8 +7,8 @@
 #ifndef RLVC_TESTS_HISTORY_H
 #define RLVC_TESTS_HISTORY_H
 
-#include "replay.h"
-#include "rng.h"
+#include "samples/replay.h"
+#include "base/rng.h"
 
 #include <string.h>
 

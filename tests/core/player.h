@@ -8,8 +8,8 @@
 #include "gridworld.h"
 #include "rlvc/agent.h"
 #include "rlvc/bits.h"
-#include "rng.h"
-#include "score.h"
+#include "base/rng.h"
+#include "stats/score.h"
 
 #include <stdio.h>
 

@@ -4,8 +4,8 @@
 #ifndef RLVC_TESTS_STORE_H
 #define RLVC_TESTS_STORE_H
 
-#include "bytes.h"
-#include "crc.h"
+#include "base/bytes.h"
+#include "base/crc.h"
 #include "rlvc/snapshot.h"
 
 #include <string.h>

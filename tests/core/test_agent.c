@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "player.h"
-#include "state.h"
+#include "agent/state.h"
 
 static player p;
 

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "rlvc/bits.h"
-#include "rng.h"
+#include "base/rng.h"
 
 #define PERCEPTS 80u
 #define WIDTHS (sizeof widths / sizeof widths[0])

@@ -8,11 +8,11 @@
 
 #include <cmocka.h>
 
-#include "cutpoint.h"
-#include "ones.h"
+#include "split/cutpoint.h"
+#include "base/popcount.h"
 #include "rlvc/agent.h"
-#include "rng.h"
-#include "score.h"
+#include "base/rng.h"
+#include "stats/score.h"
 
 #define KINDS 3
 #define COUNT_MAX (1u << 21)

@@ -12,7 +12,7 @@
 
 #include "rlvc/agent.h"
 #include "rlvc/descriptors.h"
-#include "rng.h"
+#include "base/rng.h"
 
 #define PERCEPTS 80u
 #define POINTS_MAX 5u

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "explore.h"
+#include "explore/explore.h"
 
 #define CLASSES 3u
 #define ACTIONS 4u

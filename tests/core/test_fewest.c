@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "rlvc/fewest.h"
-#include "rng.h"
+#include "base/rng.h"
 
 #include <string.h>
 

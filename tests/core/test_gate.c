@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "gate.h"
-#include "rng.h"
+#include "split/gate.h"
+#include "base/rng.h"
 
 #define ACTIONS 3u
 #define SAMPLES_MAX 400u

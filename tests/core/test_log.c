@@ -7,10 +7,10 @@
 
 #include <cmocka.h>
 
-#include "bytes.h"
-#include "crc.h"
+#include "base/bytes.h"
+#include "base/crc.h"
 #include "rlvc/log.h"
-#include "rng.h"
+#include "base/rng.h"
 
 #include <string.h>
 

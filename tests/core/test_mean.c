@@ -8,8 +8,8 @@
 #include <cmocka.h>
 
 #include "golden.h"
-#include "mean.h"
-#include "rng.h"
+#include "base/mean.h"
+#include "base/rng.h"
 
 static float constant(rlvc_rng *rng) {
     (void)rng;

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "snapshots.h"
-#include "state.h"
+#include "agent/state.h"
 
 #define HELD 64u
 

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "snapshots.h"
-#include "state.h"
+#include "agent/state.h"
 
 #define BITS 3u
 #define CAPACITY 512u

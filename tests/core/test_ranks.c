@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "cutpoint.h"
+#include "split/cutpoint.h"
 #include "rlvc/agent.h"
-#include "rng.h"
+#include "base/rng.h"
 
 #define COUNT_MAX RLVC_RANKS_MAX
 #define WORDS_MAX (COUNT_MAX / 64u)
@@ -150,7 +150,7 @@ static void test_many_samples(void **state) {
     check(COUNT_MAX, "parted");
 }
 
-/* What ranks.h tells of it: at most z^2, and that itself without ties, or where A is B. */
+/* What rank_sum.h tells of it: at most z^2, and that itself without ties, or where A is B. */
 static void test_between_normal_and_poisson(void **state) {
     (void)state;
     rlvc_rng_seed(&rng, 3u);

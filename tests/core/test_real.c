@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "golden.h"
-#include "real.h"
+#include "base/float_math.h"
 
 /* In the order of the golden file's first column. */
 static const struct {

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "history.h"
-#include "returns.h"
+#include "samples/returns.h"
 
 static history list;
 static rlvc_replay replay;

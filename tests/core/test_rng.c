@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "golden.h"
-#include "rng.h"
+#include "base/rng.h"
 
 static void test_golden(void **state) {
     (void)state;

@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "rlvc/agent.h"
-#include "rng.h"
-#include "score.h"
+#include "base/rng.h"
+#include "stats/score.h"
 
 #define KINDS 3
 #define ALLOWED ((double)RLVC_SCORE_ERROR / 4.0) /* the rest is a reserve */

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "snapshots.h"
-#include "state.h"
+#include "agent/state.h"
 
 #include <stdlib.h>
 

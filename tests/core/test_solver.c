@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "history.h"
-#include "model.h"
-#include "seek.h"
+#include "solve/model.h"
+#include "explore/novelty.h"
 
 #define CLASSES 7u
 #define PAIRS (CLASSES * HISTORY_ACTIONS)

@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "rlvc/agent.h"
-#include "rng.h"
-#include "sort.h"
+#include "base/rng.h"
+#include "samples/sort.h"
 
 #define COUNT_MAX 70000u
 

@@ -11,9 +11,9 @@
 
 #include <cmocka.h>
 
-#include "real.h"
-#include "rng.h"
-#include "text.h"
+#include "base/float_math.h"
+#include "base/rng.h"
+#include "export/text.h"
 
 #define ROOM 128u
 

@@ -12,7 +12,7 @@
 
 #include "rlvc/agent.h"
 #include "rlvc/thresholds.h"
-#include "rng.h"
+#include "base/rng.h"
 
 #define PERCEPTS 80u
 #define COMPONENTS 3u

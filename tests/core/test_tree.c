@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "rlvc/bits.h"
-#include "rng.h"
-#include "tree.h"
+#include "base/rng.h"
+#include "tree/tree.h"
 
 #define CLASSES 40u
 #define BITS 16u

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "values.h"
+#include "tree/values.h"
 
 #define CLASSES 3u
 #define ACTIONS 3u

@@ -2,8 +2,8 @@
 /* Reads anything as a log, in pieces. The first byte chooses the size of the pieces, whether the reader
  * knows the percepts, and whether the rest is taken as it is or as contents, for which records with a right
  * CRC are made. What is read must be what an agent accepts. */
-#include "bytes.h"
-#include "crc.h"
+#include "base/bytes.h"
+#include "base/crc.h"
 #include "rlvc/log.h"
 
 #include <stdlib.h>

@@ -29,7 +29,7 @@ def without_vision():
 def caller(tmp_path_factory):
     """The C program that makes the calls it reads, linked with a core of its own."""
     program = tmp_path_factory.mktemp("caller") / "caller"
-    sources = sorted([*(ROOT / "core/src").glob("*.c"), *(ROOT / "core/domains").glob("*.c")])
+    sources = sorted([*(ROOT / "core/src").glob("*/*.c"), *(ROOT / "core/domains").glob("*.c")])
     subprocess.run(
         ["gcc", "-std=c99", "-O1", "-ffp-contract=off", f"-I{ROOT / 'core/include'}", "-o", program,
          pathlib.Path(__file__).with_name("caller.c"), *sources],

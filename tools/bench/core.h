@@ -4,15 +4,15 @@
 #define RLVC_BENCH_CORE_H
 
 extern "C" {
-#include "aliasing.h"
-#include "cutpoint.h"
+#include "samples/targets.h"
+#include "split/cutpoint.h"
 #include "rlvc/rlvc.h"
-#include "score.h"
-#include "sort.h"
-#include "solver.h"
-#include "split.h"
-#include "tree.h"
-#include "values.h"
+#include "stats/score.h"
+#include "samples/sort.h"
+#include "solve/value_iteration.h"
+#include "split/split_search.h"
+#include "tree/tree.h"
+#include "tree/values.h"
 }
 
 #endif

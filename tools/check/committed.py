@@ -10,7 +10,7 @@ SKIPPED = 77  # what ctest takes for "skipped"
 
 def sources():
     return sorted(path for folder in ("src", "domains")
-                  for path in (ROOT / "core" / folder).glob("*.c"))
+                  for path in (ROOT / "core" / folder).rglob("*.c"))
 
 
 def settle(table, text, compilers, write):

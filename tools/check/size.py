@@ -193,7 +193,7 @@ has writable data.
 ## A learner in flash
 
 What the linker keeps of the library in a program that learns by bits and does not print, if it is built with one
-solver, value iteration (`-DRLVC_SOLVERS=1`, core/src/solvers.h). Beside it stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
+solver, value iteration (`-DRLVC_SOLVERS=1`, core/src/base/solver_select.h). Beside it stand the helpers that the compiler brings along where the processor lacks an instruction (floating point,
 division). On the M3 the library may take {FLASH_MAX:,} by -Os.
 
 | | {' | '.join(TARGETS)} |

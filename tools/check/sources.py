@@ -1,35 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks what the core's sources may say: which floors they include (core/DESIGN.md), which
-headers of C, that they know no double, and that each names its licence."""
+"""Checks what the core's sources may say: which rooms they include (core/DESIGN.md), which
+headers of C, that they use no double, and that each names its licence."""
 
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCES = ROOT / "core/src"
 
-# The floor of each file of core/src, by the name without .c or .h. A file includes lower floors and
-# its own header.
-FLOORS = {
-    "snapshot": 9,
-    "policy": 8, "prune": 8, "resume": 8,
-    "agent": 7, "export": 7, "learn": 7, "print": 7,
-    "config": 6, "state": 6,
-    "model": 5, "seek": 5, "succession": 5,
-    "export_descriptors": 4, "export_thresholds": 4, "samples": 4, "solver": 4, "split": 4,
-    "aliasing": 3, "compact": 3, "explore": 3, "export_tree": 3, "incremental": 3,
-    "cutpoint": 3, "predecessors": 3, "spread": 3,
-    "fisher": 2, "ranks": 2, "returns": 2, "tree": 2, "values": 2,
-    "chi2": 1, "fewest": 1, "gate": 1, "log": 1, "replay": 1, "score": 1, "slots": 1, "sort": 1,
-    "text": 1,
-    "arena": 0, "bytes": 0, "crc": 0, "mean": 0, "ones": 0, "real": 0, "rng": 0, "solvers": 0,
-    "status": 0,
-    "assert": -1,
-}
+# The rooms of core/src, from the ground up (core/DESIGN.md). A file includes headers of its own room and of
+# the rooms before it, and any public header.
+ROOMS = ("base", "stats", "tree", "samples", "split", "solve", "explore", "agent", "export", "policy",
+         "store")
 # Who may use which headers of C. They are those of a freestanding compiler, and memcpy's.
 C_HEADERS = {"stddef.h", "stdint.h", "float.h", "limits.h", "string.h"}
-C_HEADERS_OF = {"core/src/assert.h": {"assert.h"}}
+C_HEADERS_OF = {"core/src/base/assert.h": {"assert.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"', re.DOTALL)
@@ -41,11 +28,11 @@ DOUBLE = re.compile(r"\bdouble\b|(?<![\w.])(?:0[xX][\da-fA-F.]+[pP][+-]?\d+|\d+[
 def faults(path):
     name = path.relative_to(ROOT).as_posix()
     text = path.read_text(encoding="utf-8")
-    inside = name.startswith("core/src/")
+    room = path.parent.name if path.parent.parent == SOURCES else None
     if not text.startswith("/* SPDX-License-Identifier: MIT */\n"):
         yield f"{name}:1: does not begin with its licence"
-    if inside and path.stem not in FLOORS:
-        yield f"{name}: has no floor yet: add it to FLOORS in tools/check/sources.py"
+    if SOURCES in path.parents and room not in ROOMS:
+        yield f"{name}: lies in no room of core/src: {', '.join(ROOMS)}"
         return
     for match in INCLUDE.finditer(text):
         bracket, header = match.groups()
@@ -56,13 +43,12 @@ def faults(path):
         elif header.startswith("rlvc/"):
             if not (ROOT / "core/include" / header).exists():
                 yield f'{where}: includes "{header}", which is no public header'
-        elif not inside:
-            yield f'{where}: includes "{header}", but may only see the public headers'
-        elif header[:-2] not in FLOORS:
-            yield f'{where}: includes "{header}", which has no floor'
-        elif header != f"{path.stem}.h" and FLOORS[header[:-2]] >= FLOORS[path.stem]:
-            yield (f'{where}: floor {FLOORS[path.stem]} includes "{header}" '
-                   f"of floor {FLOORS[header[:-2]]}")
+        elif room is None:
+            yield f'{where}: includes "{header}", but may only include public headers'
+        elif not (included := (path.parent / header).resolve()).is_file():
+            yield f'{where}: includes "{header}", which does not exist'
+        elif included.parent.name not in ROOMS[:ROOMS.index(room) + 1]:
+            yield f'{where}: room {room} includes "{header}", which is not in a room before it'
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
     for match in DOUBLE.finditer(code):
         yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: a double: {match.group()}"
@@ -72,8 +58,8 @@ def main():
     files = sorted(path for folder in ("include", "src", "domains")
                    for path in (ROOT / "core" / folder).rglob("*.[ch]"))
     found = [fault for path in files for fault in faults(path)]
-    stale = sorted(set(FLOORS) - {path.stem for path in files if path.parent.name == "src"})
-    found += [f"tools/check/sources.py: FLOORS names {stem}, which is no file" for stem in stale]
+    found += [f"core/src/{room}: listed in tools/check/sources.py, but holds no file" for room in ROOMS
+              if not any(path.parent == SOURCES / room for path in files)]
     for fault in found:
         print(fault, file=sys.stderr)
     print(f"{len(files)} files of the core looked at, {len(found)} faults")

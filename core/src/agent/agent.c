@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/* The agent: making one, acting and observing (section 4.2.1, part 2), and asking it. */
+#include "rlvc/agent.h"
+
+#include "config.h"
+#include "../solve/td.h"
+#include "state.h"
+#include <string.h>
+
+/* The macro of agent.h allows for this. */
+typedef char fixed_part_fits[sizeof(rlvc_agent) <= RLVC_AGENT_FIXED_BYTES ? 1 : -1];
+typedef char split_record_fits[sizeof(rlvc_tree_split) == RLVC_SPLIT_BYTES ? 1 : -1];
+
+/* ------------------------------------------------------------------ making an agent */
+
+/* Lays the agent out behind *agent, whose config and domain are filled in. */
+static void carve(rlvc_agent *agent, rlvc_arena *arena) {
+    const rlvc_config *config = &agent->config;
+    const rlvc_domain *domain = &agent->domain;
+    (void)rlvc_arena_carve(arena, 1, sizeof *agent);
+    rlvc_replay_carve(&agent->replay, arena, config, domain->percept_bytes);
+    rlvc_tree_carve(&agent->tree, arena, config->classes, domain->feature_bytes);
+    rlvc_values_carve(&agent->values, arena, config);
+    rlvc_explorer_carve(&agent->explorer, arena, config);
+    agent->pending = rlvc_arena_carve(arena, config->classes, sizeof *agent->pending);
+    rlvc_workspace_carve(&agent->space, arena, config, domain->feature_bytes);
+}
+
+rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
+    if (!bytes)
+        return RLVC_E_NULL;
+    rlvc_status status = rlvc_config_status(config, domain);
+    rlvc_arena arena = {NULL, 0};
+    if (status == RLVC_OK) {
+        rlvc_agent agent;
+        agent.config = *config;
+        agent.domain = *domain;
+        carve(&agent, &arena);
+        if (arena.used > SIZE_MAX) {
+            arena.used = 0;
+            status = RLVC_E_MEMORY;
+        }
+    }
+    if (status != RLVC_E_NULL)
+        *bytes = (size_t)arena.used;
+    return status;
+}
+
+rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain, void *memory,
+                            size_t bytes, rlvc_agent **agent) {
+    if (!agent)
+        return RLVC_E_NULL;
+    *agent = NULL;
+    size_t needed = 0;
+    rlvc_status status = rlvc_agent_size(config, domain, &needed);
+    if (status != RLVC_OK)
+        return status;
+    if (!memory)
+        return RLVC_E_NULL;
+    if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
+        return RLVC_E_MEMORY;
+    rlvc_arena arena = {(unsigned char *)memory, 0};
+    rlvc_agent *made = memory;
+    memset(made, 0, sizeof *made);
+    made->config = *config;
+    made->domain = *domain;
+    carve(made, &arena);
+    rlvc_tree_clear(&made->tree);
+    rlvc_values_clear(&made->values);
+    rlvc_explorer_clear(&made->explorer, config->actions);
+    made->pending[0] = 0;
+    rlvc_rng_seed(&made->rng, config->seed);
+    *agent = made;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ acting and observing */
+
+static rlvc_status available(const rlvc_agent *agent) {
+    if (!agent)
+        return RLVC_E_NULL;
+    return agent->busy ? RLVC_E_REENTERED : RLVC_OK;
+}
+
+static rlvc_status classify(rlvc_agent *agent, const void *percept, uint32_t *class_id) {
+    agent->busy = 1;
+    rlvc_status status = rlvc_tree_classify(&agent->tree, &agent->domain, percept, class_id);
+    agent->busy = 0;
+    return status;
+}
+
+rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (!percept)
+        return RLVC_E_NULL;
+    /* A run of exploitation goes on where the window of definition 1 does. */
+    int goes_on = agent->config.continuing && !agent->replay.open && agent->replay.count > 0 &&
+                  (agent->replay.flags[rlvc_replay_slot(&agent->replay, agent->replay.count - 1)] &
+                   RLVC_SLOT_TERMINATED);
+    status = rlvc_replay_begin(&agent->replay, percept);
+    if (status == RLVC_OK && !goes_on)
+        agent->run = 0;
+    return status;
+}
+
+rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (!choice)
+        return RLVC_E_NULL;
+    if (!agent->replay.open)
+        return RLVC_E_ORDER;
+    int directed = agent->config.explore == RLVC_EXPLORE_DIRECTED;
+    rlvc_rng rng = agent->rng;
+    uint32_t run = agent->run, class_id = 0, action;
+    if (run == 0 && !(rlvc_rng_uniform(&rng) < agent->config.epsilon))
+        run = agent->config.criterion == RLVC_CRITERION_RETURNS ? agent->step + 1u : 1u;
+    if (run > 0 || directed) {
+        uint32_t slot = rlvc_replay_slot(&agent->replay, agent->replay.count - 1);
+        status = classify(agent, rlvc_replay_percept(&agent->replay, slot), &class_id);
+        if (status != RLVC_OK)
+            return status;
+    }
+    if (run > 0)
+        action = agent->values.policy[class_id];
+    else if (directed)
+        action = rlvc_explorer_choose(&agent->explorer, agent->config.actions, class_id, &rng);
+    else
+        action = rlvc_rng_below(&rng, agent->config.actions);
+    if (directed)
+        rlvc_explorer_note(&agent->explorer, agent->config.actions, class_id, action);
+    choice->action = (uint8_t)action;
+    choice->exploited = run > 0;
+    agent->run = run > 0 ? run - 1u : 0;
+    agent->rng = rng;
+    return RLVC_OK;
+}
+
+static rlvc_status check_observation(const rlvc_agent *agent, rlvc_choice choice, float reward,
+                                     const void *next, uint8_t end) {
+    if (end > RLVC_TRUNCATED || choice.action >= agent->config.actions || choice.exploited > 1)
+        return RLVC_E_RANGE;
+    if (!next && end != RLVC_TERMINATED)
+        return RLVC_E_NULL;
+    if (!(reward >= -RLVC_REWARD_MAX && reward <= RLVC_REWARD_MAX))
+        return RLVC_E_REWARD;
+    if (!agent->replay.open)
+        return RLVC_E_ORDER;
+    return end == RLVC_TERMINATED || rlvc_replay_has_room(&agent->replay) ? RLVC_OK : RLVC_E_BUSY;
+}
+
+rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, const void *next,
+                         uint8_t end) {
+    rlvc_status status = available(agent);
+    if (status == RLVC_OK)
+        status = check_observation(agent, choice, reward, next, end);
+    if (status != RLVC_OK)
+        return status;
+    if (rlvc_is_incremental(&agent->config)) {
+        rlvc_updates updates;
+        agent->busy = 1;
+        status = rlvc_incremental_prepare(&updates, &agent->config, &agent->domain, &agent->tree,
+                                          &agent->replay, &agent->values, choice, reward, next, end);
+        agent->busy = 0;
+        if (status != RLVC_OK)
+            return status;
+        rlvc_incremental_apply(&updates, agent->config.learning_rate, &agent->values);
+    }
+    rlvc_replay_append(&agent->replay, choice, reward, next, end);
+    agent->interactions++;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ asking */
+
+rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
+                         uint32_t *action) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (!percept)
+        return RLVC_E_NULL;
+    uint32_t found = 0;
+    status = classify(agent, percept, &found);
+    if (status == RLVC_OK && class_id)
+        *class_id = found;
+    if (status == RLVC_OK && action)
+        *action = agent->values.policy[found];
+    return status;
+}
+
+rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (!statistics)
+        return RLVC_E_NULL;
+    statistics->interactions = agent->interactions;
+    statistics->stored = agent->replay.stored;
+    statistics->step = agent->step;
+    statistics->classes = agent->tree.classes;
+    statistics->depth = agent->tree.depth;
+    statistics->last_split = agent->last_split;
+    statistics->refused = agent->refused;
+    statistics->sweeps = agent->sweeps;
+    statistics->residual = agent->residual;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_q(const rlvc_agent *agent, uint32_t class_id, uint32_t action, float *q,
+                   uint32_t *samples) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (class_id >= agent->tree.classes || action >= agent->config.actions)
+        return RLVC_E_RANGE;
+    size_t pair = rlvc_values_pair(&agent->values, class_id, action);
+    if (q)
+        *q = agent->values.q[pair];
+    if (samples)
+        *samples = agent->values.tried[pair];
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_value(const rlvc_agent *agent, uint32_t class_id, float *value, uint32_t *action) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (class_id >= agent->tree.classes)
+        return RLVC_E_RANGE;
+    if (value)
+        *value = agent->values.value[class_id];
+    if (action)
+        *action = agent->values.policy[class_id];
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_split_at(const rlvc_agent *agent, uint32_t index, rlvc_split *split,
+                          void *feature) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    if (index >= agent->tree.classes - 1u)
+        return RLVC_E_RANGE;
+    if (split)
+        *split = agent->tree.split[index].about;
+    if (feature)
+        memcpy(feature, rlvc_tree_feature(&agent->tree, index), agent->tree.feature_bytes);
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_agent_check(const rlvc_agent *agent) {
+    rlvc_status status = available(agent);
+    if (status != RLVC_OK)
+        return status;
+    int sound = rlvc_config_status(&agent->config, &agent->domain) == RLVC_OK &&
+                rlvc_tree_check(&agent->tree) &&
+                rlvc_replay_check(&agent->replay, agent->config.actions, agent->tree.classes) &&
+                rlvc_values_check(&agent->values, agent->tree.classes) &&
+                rlvc_explorer_check(&agent->explorer, agent->config.actions, agent->tree.classes);
+    return sound ? RLVC_OK : RLVC_E_MEMORY;
+}

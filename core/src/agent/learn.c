@@ -1,0 +1,408 @@
+/* SPDX-License-Identifier: MIT */
+/* A learning step (section 4.2.1, part 3), in slices.
+ *
+ * A step is a row of rounds. Each gives every percept its class (LABEL), finds the target of every sample
+ * (GROUP) and examines each class once (SEARCH): the best split over its actions is carried out at the end
+ * of the class, and the next round examines both children. When a round splits nothing, no class is
+ * aliased any more and the step ends (FINISH): the policy is made greedy, k incremented. Only a class whose
+ * targets tell nothing apart may be aliased by what follows (SUCCESSION): looked for when a round split
+ * nothing; what is found makes another round.
+ *
+ *     residual:  LABEL  MODEL SOLVE SEEK  GROUP SEARCH   each round; the targets need the values of its classes
+ *                SUCCESSION                              if that split nothing, and config.successors
+ *     returns:   LABEL  GROUP SEARCH                     each round; the targets are facts
+ *                MODEL SOLVE SEEK                        once, after the last
+ *
+ * SEEK is for directed exploration. It stands where the model does, which the next GROUP overwrites.
+ *
+ * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing. In their place
+ * KEEP copies V for the residual's targets, or these would change while the step is under way.
+ *
+ * All that a phase knows lies in the learner and in the tables, so that a budget may end anywhere between
+ * two elementary steps, and what comes out does not depend on where. */
+#include "learn.h"
+
+#include "../base/float_math.h"
+#include <string.h>
+
+static uint32_t pairs(const rlvc_agent *agent) {
+    return agent->tree.classes * agent->config.actions;
+}
+
+rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind) {
+    rlvc_aliasing made;
+    made.returns.replay = &agent->replay;
+    made.returns.end = agent->learner.end;
+    made.returns.horizon = agent->step;
+    made.returns.discount = agent->config.discount;
+    made.returns.continuing = agent->config.continuing;
+    made.values = &agent->values;
+    made.gap = kind == RLVC_CRITERION_RESIDUAL ? 2.0f * agent->config.tolerance : 0.0f;
+    made.kind = kind;
+    return made;
+}
+
+rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion) {
+    rlvc_searching made = {
+        &agent->space,      &agent->replay, criterion, &agent->domain, agent->config.min_samples,
+        agent->config.score, agent->config.gate};
+    return made;
+}
+
+rlvc_solving rlvc_learner_solving(const rlvc_agent *agent) {
+    rlvc_solving made = {agent->space.sample,     agent->tree.classes,     agent->config.max_sweeps,
+                         agent->config.discount,  agent->config.tolerance, agent->replay.slots,
+                         agent->pending};
+    return made;
+}
+
+static void enter(rlvc_agent *agent, uint8_t phase) {
+    rlvc_learner *learner = &agent->learner;
+    learner->phase = phase;
+    learner->at = 0;
+    learner->node = 0;
+    learner->classes = agent->tree.classes;
+    learner->searching = 0;
+    if (phase == RLVC_PHASE_LABEL) {
+        learner->rounds++;
+    } else if (phase == RLVC_PHASE_GROUP) {
+        rlvc_grouping_begin(&learner->work.grouping, pairs(agent));
+    } else if (rlvc_phase_splits(phase)) {
+        learner->made = 0;
+    } else if (phase == RLVC_PHASE_MODEL) {
+        rlvc_model_begin(&learner->work.model, pairs(agent));
+    } else if (phase == RLVC_PHASE_SOLVE) {
+        rlvc_solver_begin(&learner->work.solver, agent->config.solver);
+    } else if (phase == RLVC_PHASE_SEEK) {
+        rlvc_solving solving = rlvc_learner_solving(agent);
+        agent->explorer.least = rlvc_explorer_least(learner->end, pairs(agent));
+        rlvc_seeking_begin(&learner->work.seeking, &solving, &agent->values);
+    }
+}
+
+static void begin_step(rlvc_agent *agent) {
+    agent->learner.end = rlvc_replay_freeze(&agent->replay);
+    agent->learner.rounds = 0;
+    agent->learner.splits = 0;
+    enter(agent, RLVC_PHASE_LABEL);
+}
+
+/* ------------------------------------------------------------------ LABEL */
+
+/* One test of the percept at position `at`: the whole way down the tree if it is new, else only the split
+ * that the last round made of its class, if any. A unit each. */
+static rlvc_status step_label(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_replay *replay = &agent->replay;
+    if (learner->at == replay->frozen) {
+        if (agent->config.criterion == RLVC_CRITERION_RETURNS)
+            enter(agent, RLVC_PHASE_GROUP);
+        else
+            enter(agent, rlvc_is_incremental(&agent->config) ? RLVC_PHASE_KEEP : RLVC_PHASE_MODEL);
+        return RLVC_OK;
+    }
+    uint32_t slot = rlvc_replay_slot(replay, learner->at);
+    uint16_t label = replay->label[slot];
+    const void *percept = rlvc_replay_percept(replay, slot);
+    if (label == RLVC_NO_CLASS) {
+        if (rlvc_tree_is_leaf(&agent->tree, learner->node)) {
+            replay->label[slot] = (uint16_t)rlvc_tree_class(&agent->tree, learner->node);
+            learner->node = 0;
+            learner->at++;
+            return RLVC_OK;
+        }
+        return rlvc_tree_descend(&agent->tree, &agent->domain, percept, &learner->node);
+    }
+    if (agent->pending[label] != 0) {
+        uint32_t split = agent->pending[label] - 1u;
+        uint32_t node = agent->tree.split[split].node;
+        rlvc_status status = rlvc_tree_descend(&agent->tree, &agent->domain, percept, &node);
+        if (status != RLVC_OK)
+            return status;
+        if (node == 2u * split + 2u)
+            replay->label[slot] = agent->pending[label];
+    }
+    learner->at++;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ SEARCH */
+
+/* What it is charged to decide upon a split: some logarithms, or this many features compared. */
+#define DECIDE_UNITS 32u
+
+/* What was found in class `at`: the feature, or null. */
+static const void *found(const rlvc_agent *agent, rlvc_split *split) {
+    const rlvc_learner *learner = &agent->learner;
+    return learner->phase == RLVC_PHASE_SEARCH
+               ? rlvc_search_result(&learner->work.search, &agent->space, split)
+               : rlvc_succession_result(&learner->work.succession, &agent->space, split);
+}
+
+/* Carries a split of class `at` out. */
+static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
+    rlvc_learner *learner = &agent->learner;
+    uint32_t made = agent->tree.classes;
+    split->class_id = learner->at;
+    split->step = agent->step;
+    rlvc_tree_grow(&agent->tree, split, feature);
+    rlvc_values_inherit(&agent->values, made, learner->at);
+    if (!rlvc_is_incremental(&agent->config)) { /* the next solution tells the two apart */
+        rlvc_values_forget(&agent->values, made);
+        rlvc_values_forget(&agent->values, learner->at);
+    }
+    rlvc_explorer_inherit(&agent->explorer, agent->config.actions, made, learner->at);
+    agent->pending[learner->at] = (uint16_t)made;
+    agent->pending[made] = 0;
+    agent->last_split = agent->step;
+    learner->made++;
+    learner->splits++;
+}
+
+/* Compares some more of the tree's features with one.
+ * @return 1 if it is among them; 0 if not, and then `node` is the tree's last split or there are more. */
+static int recognise(rlvc_agent *agent, const void *feature) {
+    const rlvc_tree *tree = &agent->tree;
+    rlvc_learner *learner = &agent->learner;
+    for (uint32_t i = 0; i < DECIDE_UNITS && learner->node + 1u < tree->classes; i++) {
+        if (memcmp(rlvc_tree_feature(tree, learner->node), feature, tree->feature_bytes) == 0)
+            return 1;
+        learner->node++;
+    }
+    return 0;
+}
+
+/* ln of the level at which a feature new to the tree splits a class in this step: its share of alpha. The steps
+ * share alpha by doublings, 1, 2, 4, ... steps long: the d-th has 1 / (d (d + 1)) of it, in equal parts, and so
+ * all together have it once. In a step the two phases share alike. */
+static float log_level(const rlvc_agent *agent) {
+    float steps = 1.0f; /* of the doubling */
+    uint32_t d = 1;
+    for (uint64_t k = agent->step + (uint64_t)1; k >> d != 0; d++)
+        steps *= 2.0f;
+    float phases = agent->config.successors ? 2.0f : 1.0f;
+    return rlvc_ln(agent->config.alpha) - rlvc_ln((float)(d * (d + 1u)) * steps * phases);
+}
+
+static uint32_t close_class(rlvc_agent *agent, uint32_t used) {
+    agent->learner.searching = 0;
+    agent->learner.node = 0;
+    agent->learner.at++;
+    return used;
+}
+
+/* Takes the result of the search in class `at`, and carries the split out if it is significant. Returns
+ * the units used. */
+static uint32_t decide(rlvc_agent *agent) {
+    rlvc_split split;
+    const void *feature = found(agent, &split);
+    if (!feature)
+        return close_class(agent, 1);
+    if (!(split.log_p < log_level(agent))) {
+        if (!(split.log_p < rlvc_ln(agent->config.alpha_known)))
+            return close_class(agent, DECIDE_UNITS);
+        if (!recognise(agent, feature))
+            return agent->learner.node + 1u < agent->tree.classes
+                       ? DECIDE_UNITS
+                       : close_class(agent, DECIDE_UNITS);
+    }
+    if (agent->tree.classes == agent->tree.classes_max)
+        agent->refused++;
+    else
+        grow(agent, &split, feature);
+    return close_class(agent, DECIDE_UNITS);
+}
+
+static void end_round(rlvc_agent *agent) {
+    const rlvc_config *config = &agent->config;
+    if (agent->learner.made > 0)
+        enter(agent, RLVC_PHASE_LABEL);
+    else if (config->criterion == RLVC_CRITERION_RETURNS)
+        enter(agent, rlvc_is_incremental(config) ? RLVC_PHASE_FINISH : RLVC_PHASE_MODEL);
+    else
+        enter(agent, config->successors && agent->learner.phase == RLVC_PHASE_SEARCH
+                         ? RLVC_PHASE_SUCCESSION
+                         : RLVC_PHASE_FINISH);
+}
+
+/* Works on class `at`: what is sought is up to the phase. */
+static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
+    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    int succession = learner->phase == RLVC_PHASE_SUCCESSION;
+    *used = 1;
+    if (!learner->searching && learner->at == learner->classes) {
+        end_round(agent);
+        return RLVC_OK;
+    }
+    if (!learner->searching) {
+        const uint32_t *first =
+            agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0);
+        agent->pending[learner->at] = 0;
+        if (succession)
+            rlvc_succession_begin(&learner->work.succession, &searching, first);
+        else
+            rlvc_search_begin(&learner->work.search, &searching, first);
+        learner->searching = 1;
+    }
+    if (succession && !learner->work.succession.done)
+        return rlvc_succession_step(&learner->work.succession, &searching, budget, used);
+    if (!succession && !learner->work.search.done)
+        return rlvc_search_step(&learner->work.search, &searching, budget, used);
+    *used = decide(agent);
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ the other phases */
+
+/* Keeps V of class `at`, for targets. A unit each. */
+static void step_keep(rlvc_agent *agent) {
+    uint32_t c = agent->learner.at++;
+    if (c < agent->tree.classes)
+        agent->values.target[c] = agent->values.value[c];
+    else
+        enter(agent, RLVC_PHASE_GROUP);
+}
+
+static uint32_t step_group(rlvc_agent *agent, uint32_t budget) {
+    rlvc_grouping *grouping = &agent->learner.work.grouping;
+    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
+    uint32_t used =
+        rlvc_grouping_step(grouping, &criterion, agent->space.sample, agent->values.first, budget);
+    if (grouping->done)
+        enter(agent, RLVC_PHASE_SEARCH);
+    return used;
+}
+
+static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
+    rlvc_model *model = &agent->learner.work.model;
+    rlvc_aliasing successor = rlvc_learner_aliasing(agent, RLVC_KEY_SUCCESSOR);
+    uint32_t used = rlvc_model_step(model, &successor, &agent->values, agent->space.sample,
+                                    agent->space.columns, budget);
+    if (model->done)
+        enter(agent, RLVC_PHASE_SOLVE);
+    return used;
+}
+
+/* What a unit of the solver's is charged: it is arithmetic, where others but look. */
+#define SOLVE_UNITS 2u
+
+/* The values are there: what comes then. */
+static void leave_model(rlvc_agent *agent) {
+    enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH
+                                                                   : RLVC_PHASE_GROUP);
+}
+
+static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
+    rlvc_solver *solver = &agent->learner.work.solver;
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    uint32_t used =
+        SOLVE_UNITS * rlvc_solver_step(solver, &solving, &agent->values, budget / SOLVE_UNITS);
+    if (solver->done) {
+        agent->sweeps = solver->sweeps;
+        agent->residual = solver->residual;
+        if (agent->config.explore == RLVC_EXPLORE_DIRECTED)
+            enter(agent, RLVC_PHASE_SEEK);
+        else
+            leave_model(agent);
+    }
+    return used;
+}
+
+static uint32_t step_seek(rlvc_agent *agent, uint32_t budget) {
+    rlvc_seeking *seeking = &agent->learner.work.seeking;
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    uint32_t used = SOLVE_UNITS * rlvc_seeking_step(seeking, &solving, &agent->values,
+                                                    &agent->explorer, budget / SOLVE_UNITS);
+    if (seeking->done)
+        leave_model(agent);
+    return used;
+}
+
+/* Makes the policy of class `at` greedy; after the last class ends the step. A unit each. */
+static void step_finish(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    if (learner->at < agent->tree.classes) {
+        agent->values.policy[learner->at] =
+            (uint8_t)rlvc_values_greedy(&agent->values, learner->at);
+        learner->at++;
+        return;
+    }
+    /* The next step of the returns criterion looks at longer windows under another policy: the
+     * database must be collected afresh (section 4.2.1). */
+    if (agent->config.criterion == RLVC_CRITERION_RETURNS)
+        rlvc_replay_clear(&agent->replay);
+    agent->replay.frozen = 0;
+    agent->run = 0;
+    agent->step++;
+    learner->phase = RLVC_PHASE_IDLE;
+}
+
+static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    rlvc_status status = RLVC_OK;
+    *used = 1;
+    switch (agent->learner.phase) {
+    case RLVC_PHASE_LABEL:
+        status = step_label(agent);
+        break;
+    case RLVC_PHASE_KEEP:
+        step_keep(agent);
+        break;
+    case RLVC_PHASE_GROUP:
+        *used = step_group(agent, budget);
+        break;
+    case RLVC_PHASE_SEARCH:
+    case RLVC_PHASE_SUCCESSION:
+        status = step_search(agent, budget, used);
+        break;
+    case RLVC_PHASE_MODEL:
+        *used = step_model(agent, budget);
+        break;
+    case RLVC_PHASE_SOLVE:
+        *used = step_solve(agent, budget);
+        break;
+    case RLVC_PHASE_SEEK:
+        *used = step_seek(agent, budget);
+        break;
+    default:
+        step_finish(agent);
+        break;
+    }
+    return status;
+}
+
+/* The units that the phase needs to get on: some have steps that are not divided further. */
+static uint32_t needed(const rlvc_agent *agent) {
+    uint8_t phase = agent->learner.phase;
+    return phase == RLVC_PHASE_MODEL || rlvc_phase_splits(phase) ? RLVC_BUDGET_MIN : SOLVE_UNITS;
+}
+
+rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
+    if (!agent || !progress)
+        return RLVC_E_NULL;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    if (budget < RLVC_BUDGET_MIN)
+        return RLVC_E_RANGE;
+    rlvc_status status = RLVC_OK;
+    uint64_t work = 0;
+    int unbounded = budget == RLVC_BUDGET_UNBOUNDED;
+    if (agent->learner.phase == RLVC_PHASE_IDLE)
+        begin_step(agent);
+    agent->busy = 1;
+    while (status == RLVC_OK && agent->learner.phase != RLVC_PHASE_IDLE &&
+           (unbounded || budget - work >= needed(agent))) {
+        uint32_t used = 0;
+        status = step_phase(agent, unbounded ? budget : (uint32_t)(budget - work), &used);
+        work += used;
+    }
+    agent->busy = 0;
+    memset(progress, 0, sizeof *progress);
+    /* All ones where it does not fit: nobody budgets a step of so much work. */
+    progress->work = (uint32_t)work | (0u - (uint32_t)(work > UINT32_MAX));
+    progress->rounds = agent->learner.rounds;
+    progress->splits = agent->learner.splits;
+    progress->done = agent->learner.phase == RLVC_PHASE_IDLE;
+    return status;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* How sure the mean of a class-action pair's targets is, which is its Q: by the spread of the targets
+ * r + gamma V(C(s')) that the ring still holds. Interactions that no learning step has labelled yet are left out.
+ *
+ * The samples of one trajectory are not independent, and V is common to them: the standard errors are what they
+ * would be if it were otherwise, and so rather too small. */
+#ifndef RLVC_SRC_Q_VARIANCE_H
+#define RLVC_SRC_Q_VARIANCE_H
+
+#include "../samples/replay.h"
+#include "../tree/values.h"
+
+typedef struct rlvc_spread {
+    float *squares;  /* [classes * actions] the sum of (target - Q)^2 */
+    uint32_t *count; /* [classes * actions] targets in it */
+} rlvc_spread;
+
+/* Fills both tables. O(slots + classes * actions). */
+void rlvc_spread_measure(const rlvc_spread *spread, const rlvc_replay *replay,
+                         const rlvc_values *values, float discount, uint32_t classes);
+
+/* The square of the standard error of Q of a pair with samples: sum of squares / n^2. O(1). */
+static inline float rlvc_spread_variance(const rlvc_spread *spread, size_t pair) {
+    const float n = (float)spread->count[pair];
+    return spread->squares[pair] / n / n;
+}
+
+#endif

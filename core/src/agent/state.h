@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/* The agent's state: everything that lies in the caller's block. */
+#ifndef RLVC_SRC_STATE_H
+#define RLVC_SRC_STATE_H
+
+#include "../solve/model.h"
+#include "../base/rng.h"
+#include "../explore/novelty.h"
+#include "../solve/value_iteration.h"
+#include "../base/solver_select.h"
+#include "../split/split_search.h"
+#include "../split/successor_search.h"
+#include "../tree/tree.h"
+
+/* A learning step under way: see learn.c. */
+typedef struct rlvc_learner {
+    union {
+        rlvc_grouping grouping;
+        rlvc_search search;
+        rlvc_succession succession;
+        rlvc_model model;
+        rlvc_solver solver;
+        rlvc_seeking seeking;
+    } work;              /* of the phase */
+    uint32_t end;        /* N: interactions at positions [0, end) are the database */
+    uint32_t at;         /* position, pair or class, by phase */
+    uint32_t node;       /* where the walk of the percept at position `at` is; or how many of the tree's
+                            features the class's new one was compared with */
+    uint32_t classes;    /* when this phase began */
+    uint32_t rounds;     /* begun in this step */
+    uint32_t splits;     /* made in this step */
+    uint32_t made;       /* made in this round */
+    uint8_t phase;
+    uint8_t searching; /* the search in class `at` has begun */
+} rlvc_learner;
+
+struct rlvc_agent {
+    rlvc_config config;
+    rlvc_domain domain;
+    rlvc_replay replay;
+    rlvc_tree tree;
+    rlvc_values values;
+    rlvc_explorer explorer;
+    rlvc_workspace space;
+    rlvc_learner learner;
+    rlvc_rng rng;
+    uint64_t interactions;
+    uint16_t *pending;   /* [classes] the class that a split of this round made from one, or 0; of no use
+                            from LABEL to SEARCH, where prioritized sweeping has its priorities */
+    uint32_t step;       /* k */
+    uint32_t run;        /* greedy actions that the present run of exploitation still has to take */
+    uint32_t last_split; /* the step of the newest split */
+    uint32_t refused;
+    uint32_t sweeps;     /* of the last solution */
+    float residual;
+    uint8_t busy;        /* a callback is being called */
+};
+
+static inline int rlvc_is_incremental(const rlvc_config *config) {
+    return (RLVC_HAS_SOLVER(RLVC_SOLVER_Q_LEARNING) && config->solver == RLVC_SOLVER_Q_LEARNING) ||
+           (RLVC_HAS_SOLVER(RLVC_SOLVER_SARSA) && config->solver == RLVC_SOLVER_SARSA);
+}
+
+#endif

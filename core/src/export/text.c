@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+/* Strings and numbers as text: see text.h. */
+#include "text.h"
+
+#include "../base/float_math.h"
+#include <string.h>
+
+static void put(rlvc_text *text, const char *bytes, size_t count) {
+    if (text->status == RLVC_OK && count > 0 && text->write(text->ctx, bytes, count) != 0)
+        text->status = RLVC_E_CALLBACK;
+}
+
+void rlvc_text_string(rlvc_text *text, const char *string) {
+    put(text, string, strlen(string));
+}
+
+void rlvc_text_uint(rlvc_text *text, uint32_t number) {
+    char digits[10];
+    uint32_t at = sizeof digits;
+    do {
+        digits[--at] = (char)('0' + number % 10u);
+        number /= 10u;
+    } while (number > 0);
+    put(text, digits + at, sizeof digits - at);
+}
+
+/* A positive number as mantissa * 2^exponent, with a mantissa of 64 bits, the highest set. */
+typedef struct wide {
+    uint64_t mantissa;
+    int32_t exponent;
+} wide;
+
+static void normalize(wide *x) {
+    while (!(x->mantissa >> 63)) {
+        x->mantissa <<= 1;
+        x->exponent--;
+    }
+}
+
+static wide widen(uint32_t bits) {
+    wide x;
+    uint32_t biased = bits >> 23 & 0xffu;
+    x.mantissa = (bits & 0x7fffffu) | (biased > 0 ? 0x800000u : 0u);
+    x.exponent = (int32_t)(biased > 0 ? biased : 1u) - 150;
+    normalize(&x);
+    return x;
+}
+
+/* The integer part of x, which must be below 2^63 but may have any fraction. */
+static uint64_t truncated(const wide *x) {
+    return x->exponent > -64 ? x->mantissa >> -x->exponent : 0;
+}
+
+/* The decimal digits of a positive float: returns an integer of exactly `digits` digits, of which the
+ * first stands for 10^*power. Scaling by ten loses less than 2^-60 a time, so that the result is within
+ * 2^-54 of the float: far nearer than a ninth digit. */
+static uint64_t decimal(uint32_t bits, uint32_t digits, int32_t *power) {
+    wide x = widen(bits);
+    uint64_t low = 1;
+    for (uint32_t i = 1; i < digits; i++)
+        low *= 10u;
+    *power = (int32_t)digits - 1;
+    while (x.exponent > -1 || truncated(&x) >= low * 10u) { /* x := x / 10 */
+        x.mantissa /= 10u;
+        normalize(&x);
+        (*power)++;
+    }
+    while (truncated(&x) < low) { /* x := x * 10 */
+        x.mantissa = (x.mantissa >> 4) * 10u;
+        x.exponent += 4;
+        normalize(&x);
+        (*power)--;
+    }
+    uint64_t whole = truncated(&x) + (x.mantissa >> (-x.exponent - 1) & 1u);
+    if (whole < low * 10u)
+        return whole;
+    (*power)++; /* 99.96 is 100 by three digits */
+    return low;
+}
+
+/* The digits of `whole` into text[0 .. count - 1], without the zeros at the end; returns their number. */
+static uint32_t spell(uint64_t whole, uint32_t count, char *digit) {
+    for (uint32_t i = count; i-- > 0; whole /= 10u)
+        digit[i] = (char)('0' + (int)(whole % 10u));
+    while (count > 1 && digit[count - 1u] == '0')
+        count--;
+    return count;
+}
+
+static void put_zeros(rlvc_text *text, int32_t count) {
+    for (; count > 0; count--)
+        put(text, "0", 1);
+}
+
+/* 0.00ddd, d.ddd or ddd00, where the decimal point is not far off. */
+static void put_fixed(rlvc_text *text, const char *digit, uint32_t count, int32_t power) {
+    if (power < 0) {
+        put(text, "0.", 2);
+        put_zeros(text, -power - 1);
+        put(text, digit, count);
+        return;
+    }
+    uint32_t before = (uint32_t)power + 1u;
+    uint32_t shown = before < count ? before : count;
+    put(text, digit, shown);
+    put_zeros(text, (int32_t)(before - shown));
+    if (count > before) {
+        put(text, ".", 1);
+        put(text, digit + before, count - before);
+    }
+}
+
+void rlvc_text_float(rlvc_text *text, float number, uint32_t digits) {
+    uint32_t bits = rlvc_bits_of(number);
+    if (!(bits & 0x7fffffffu)) {
+        put(text, "0", 1);
+        return;
+    }
+    if (bits & 0x80000000u)
+        put(text, "-", 1);
+    char digit[9];
+    int32_t power = 0;
+    uint64_t whole = decimal(bits & 0x7fffffffu, digits, &power);
+    uint32_t count = spell(whole, digits, digit);
+    if (power >= -5 && power < 9) {
+        put_fixed(text, digit, count, power);
+        return;
+    }
+    put_fixed(text, digit, count, 0);
+    put(text, power < 0 ? "e-" : "e+", 2);
+    rlvc_text_uint(text, (uint32_t)(power < 0 ? -power : power));
+}
+
+/* Room for the characters of a name, the final 0 not counted. */
+typedef struct spelling {
+    char *text;
+    uint32_t room;
+    uint32_t count;
+} spelling;
+
+static int keep(void *ctx, const char *bytes, size_t count) {
+    spelling *kept = (spelling *)ctx;
+    for (size_t i = 0; i < count && kept->count < kept->room; i++)
+        kept->text[kept->count++] = bytes[i];
+    return 0;
+}
+
+uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room) {
+    spelling kept = {text, room - 1u, 0};
+    rlvc_text to = {keep, &kept, RLVC_OK};
+    rlvc_text_float(&to, number, digits);
+    text[kept.count] = '\0';
+    return kept.count;
+}

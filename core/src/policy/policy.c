@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: MIT */
+/* A policy by itself: see rlvc/policy.h.
+ *
+ * Its tree has the layout of the agent's (tree.h), so that it is walked, printed and exported alike. In the
+ * block it comes first, with the actions of its leaves; behind it is what only its making needs:
+ *
+ *     number, origin   the tree's distinct features: which one each split tests, and a split of each
+ *     row, allowed     the ring's distinct percepts, by these features
+ *     scratch          first an index of the rows, to tell whether one is new; then what rlvc_fewest works
+ *                      in, and leaves its tree in; or else the leaf that each node of the agent's tree
+ *                      begins in the collapsed one */
+#include "rlvc/policy.h"
+
+#include "rlvc/fewest.h"
+
+#include "../export/collapse.h"
+#include "../export/export_tree.h"
+#include "../export/print.h"
+#include "../agent/state.h"
+#include <string.h>
+
+#define PERCEPTS_DEFAULT 16384u
+
+struct rlvc_policy {
+    rlvc_domain domain;
+    rlvc_tree tree;
+    uint8_t *action; /* [classes] */
+    uint32_t actions;
+    uint8_t busy; /* a callback is being called */
+};
+
+typedef struct maker {
+    const rlvc_agent *agent;
+    const rlvc_policy_config *config;
+    rlvc_policy *policy;
+    rlvc_policy made; /* laid out, until there is a place for it */
+    rlvc_fewest_task task;
+    uint64_t kept; /* bytes of the policy itself */
+    uint64_t scratch_bytes;
+    uint32_t index_mask; /* entries of the index - 1 */
+    uint32_t words;      /* of a row */
+    uint32_t *number;    /* [splits] */
+    uint32_t *origin;    /* [features] */
+    uint64_t *row;       /* [percepts + 1][words] the last is that of a percept looked at */
+    uint64_t *allowed;   /* [percepts] */
+    void *scratch;
+} maker;
+
+/* ------------------------------------------------------------------ laying out */
+
+/* The first split whose feature is that of split j. */
+static uint32_t first_alike(const rlvc_tree *tree, uint32_t j) {
+    uint32_t i = 0;
+    while (memcmp(rlvc_tree_feature(tree, i), rlvc_tree_feature(tree, j), tree->feature_bytes) != 0)
+        i++;
+    return i;
+}
+
+static uint32_t distinct_features(const rlvc_tree *tree) {
+    uint32_t count = 0;
+    for (uint32_t j = 0; j + 1u < tree->classes; j++)
+        count += (uint32_t)(first_alike(tree, j) == j);
+    return count;
+}
+
+static void at_least(uint64_t *bytes, uint64_t needed) {
+    if (*bytes < needed)
+        *bytes = needed;
+}
+
+static void carve(maker *m, rlvc_arena *arena) {
+    const rlvc_tree *tree = &m->agent->tree;
+    const uint64_t percepts = m->config->percepts;
+    m->words = RLVC_FEWEST_WORDS(m->task.features);
+    for (m->index_mask = 1; m->index_mask < 2u * m->config->percepts;)
+        m->index_mask = 2u * m->index_mask + 1u;
+    m->policy = rlvc_arena_carve(arena, 1, sizeof *m->policy);
+    rlvc_tree_carve(&m->made.tree, arena, tree->classes, tree->feature_bytes);
+    m->made.action = rlvc_arena_carve(arena, tree->classes, sizeof *m->made.action);
+    m->kept = arena->used;
+    m->number = rlvc_arena_carve(arena, tree->classes, sizeof *m->number);
+    m->origin = rlvc_arena_carve(arena, m->task.features, sizeof *m->origin);
+    m->row = rlvc_arena_carve(arena, (percepts + 1u) * m->words, sizeof *m->row);
+    m->allowed = rlvc_arena_carve(arena, percepts, sizeof *m->allowed);
+    at_least(&m->scratch_bytes, ((uint64_t)m->index_mask + 1u) * sizeof(uint32_t));
+    at_least(&m->scratch_bytes, 2u * (uint64_t)tree->classes * sizeof(uint32_t));
+    m->scratch = rlvc_arena_carve(arena, 1, m->scratch_bytes);
+}
+
+/* Checks the config and lays out, in a block if there is one. */
+static rlvc_status lay_out(maker *m, const rlvc_agent *agent, const rlvc_policy_config *config,
+                           void *memory, size_t *bytes) {
+    rlvc_arena arena = {memory, 0};
+    size_t fewest = 0;
+    memset(m, 0, sizeof *m);
+    m->agent = agent;
+    m->config = config;
+    m->task.rows = config->percepts;
+    m->task.features = distinct_features(&agent->tree);
+    m->task.entries = config->entries;
+    m->task.reserved = config->reserved;
+    m->task.effort = config->effort;
+    rlvc_status status = rlvc_fewest_size(&m->task, &fewest);
+    if (!(config->tolerance >= 0.0f && config->tolerance <= RLVC_REWARD_MAX))
+        status = RLVC_E_RANGE;
+    if (status != RLVC_OK)
+        return status;
+    m->scratch_bytes = fewest;
+    carve(m, &arena);
+    if (arena.used > SIZE_MAX)
+        return RLVC_E_MEMORY;
+    *bytes = (size_t)arena.used;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ the ring's percepts as rows */
+
+static void number_features(maker *m) {
+    const rlvc_tree *tree = &m->agent->tree;
+    uint32_t count = 0;
+    for (uint32_t j = 0; j + 1u < tree->classes; j++) {
+        const uint32_t first = first_alike(tree, j);
+        m->number[j] = first == j ? count : m->number[first];
+        if (first == j)
+            m->origin[count++] = j;
+    }
+}
+
+/* Which of the features a percept exhibits. */
+static rlvc_status detect(const maker *m, const void *percept, uint64_t *row) {
+    const rlvc_domain *domain = &m->agent->domain;
+    memset(row, 0, m->words * sizeof *row);
+    for (uint32_t f = 0; f < m->task.features; f++) {
+        const void *feature = rlvc_tree_feature(&m->agent->tree, m->origin[f]);
+        uint8_t present = 0;
+        if (domain->exhibits(domain->ctx, percept, feature, &present) != 0)
+            return RLVC_E_CALLBACK;
+        row[f / 64u] |= (uint64_t)(present != 0) << f % 64u;
+    }
+    return RLVC_OK;
+}
+
+/* The class of a percept that exhibits these. */
+static uint32_t class_of(const maker *m, const uint64_t *row) {
+    const rlvc_tree *tree = &m->agent->tree;
+    uint32_t node = 0;
+    while (!rlvc_tree_is_leaf(tree, node)) {
+        const uint32_t f = m->number[rlvc_tree_split_of(tree, node)];
+        node = tree->node[node] + (uint32_t)(row[f / 64u] >> f % 64u & 1u);
+    }
+    return rlvc_tree_class(tree, node);
+}
+
+/* The actions that are as good as the agent's in a class, that one included. */
+static uint64_t allowed_in(const maker *m, uint32_t class_id) {
+    const rlvc_values *values = &m->agent->values;
+    const size_t first = rlvc_values_pair(values, class_id, 0);
+    const uint32_t best = values->policy[class_id];
+    uint64_t actions = (uint64_t)1 << best;
+    for (uint32_t a = 0; a < values->actions; a++) {
+        const int near = values->tried[first + best] > 0 && values->tried[first + a] > 0 &&
+                         values->q[first + a] >= values->q[first + best] - m->config->tolerance;
+        if (near && m->config->tolerance > 0.0f)
+            actions |= (uint64_t)1 << a;
+    }
+    return actions;
+}
+
+/* Where the row behind the last one stands in the index, or would. */
+static uint32_t find(const maker *m, const uint32_t *index) {
+    const uint64_t *row = m->row + (size_t)m->task.rows * m->words;
+    uint64_t hash = 0;
+    for (uint32_t w = 0; w < m->words; w++) {
+        hash = (hash ^ row[w]) * 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 32;
+    }
+    uint32_t at = (uint32_t)hash & m->index_mask;
+    while (index[at] != 0 &&
+           memcmp(m->row + (size_t)(index[at] - 1u) * m->words, row, m->words * sizeof *row) != 0)
+        at = (at + 1u) & m->index_mask;
+    return at;
+}
+
+/* Makes rows of the ring's percepts. *fit: there are some, and no more than there is room for. */
+static rlvc_status gather(maker *m, int *fit) {
+    const rlvc_replay *replay = &m->agent->replay;
+    uint32_t *index = m->scratch;
+    memset(index, 0, ((size_t)m->index_mask + 1u) * sizeof *index);
+    number_features(m);
+    m->task.rows = 0;
+    for (uint32_t position = 0; position < replay->count; position++) {
+        uint64_t *row = m->row + (size_t)m->task.rows * m->words;
+        const uint32_t slot = rlvc_replay_slot(replay, position);
+        const rlvc_status status = detect(m, rlvc_replay_percept(replay, slot), row);
+        if (status != RLVC_OK)
+            return status;
+        const uint32_t at = find(m, index);
+        if (index[at] != 0)
+            continue;
+        if (m->task.rows == m->config->percepts)
+            return RLVC_OK;
+        m->allowed[m->task.rows++] = allowed_in(m, class_of(m, row));
+        index[at] = m->task.rows;
+    }
+    *fit = m->task.rows > 0;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ its tree */
+
+static void begin_tree(rlvc_policy *policy, uint8_t action) {
+    rlvc_tree_clear(&policy->tree);
+    policy->action[0] = action;
+}
+
+static void split(maker *m, uint32_t leaf, const void *feature) {
+    rlvc_split about;
+    memset(&about, 0, sizeof about);
+    about.class_id = leaf;
+    rlvc_tree_grow(&m->policy->tree, &about, feature);
+}
+
+/* The tree that was found. */
+static void take_fewest(maker *m, const rlvc_fewest_tree *found) {
+    begin_tree(m->policy, 0);
+    for (uint32_t j = 0; j + 1u < found->leaves; j++)
+        split(m, found->split[j].leaf,
+              rlvc_tree_feature(&m->agent->tree, m->origin[found->split[j].feature]));
+    memcpy(m->policy->action, found->action, found->leaves);
+}
+
+/* The collapsed tree: in pre-order a node's leaf is known before those of its children. */
+static void take_collapsed(maker *m, const rlvc_compact *collapsed) {
+    uint32_t *leaf = m->scratch, node = 0;
+    begin_tree(m->policy, 0);
+    leaf[0] = 0;
+    do {
+        if (rlvc_compact_is_mixed(collapsed, node)) {
+            const uint32_t absent = collapsed->tree->node[node];
+            leaf[absent] = leaf[node];
+            leaf[absent + 1u] = m->policy->tree.classes;
+            split(m, leaf[node], rlvc_compact_feature(collapsed, node));
+        } else {
+            m->policy->action[leaf[node]] = (uint8_t)rlvc_compact_action(collapsed, node);
+        }
+        node = rlvc_compact_next(collapsed, node);
+    } while (node != 0);
+}
+
+/* Makes the smaller of the two trees the policy's. */
+static rlvc_status choose(maker *m, rlvc_policy_info *info) {
+    const rlvc_agent *agent = m->agent;
+    rlvc_compact collapsed = {
+        {NULL, NULL, RLVC_OK}, &agent->tree, agent->values.policy, NULL, agent->config.actions, 0};
+    rlvc_fewest_tree found;
+    int fit = 0;
+    memset(&found, 0, sizeof found);
+    rlvc_compact_count(&collapsed);
+    if (agent->config.actions <= RLVC_FEWEST_ACTIONS_MAX) {
+        const rlvc_status status = gather(m, &fit);
+        if (status != RLVC_OK)
+            return status;
+    }
+    if (fit) {
+        m->task.row = m->row;
+        m->task.allowed = m->allowed;
+        (void)rlvc_fewest(&m->task, m->scratch, (size_t)m->scratch_bytes, &found);
+    }
+    info->classes = agent->tree.classes;
+    info->collapsed = collapsed.mixed + 1u;
+    info->percepts = fit ? m->task.rows : 0;
+    info->features = m->task.features;
+    info->bytes = (uint32_t)m->kept;
+    info->exact = found.exact;
+    info->as_agent = !fit || found.leaves >= info->collapsed;
+    if (info->as_agent)
+        take_collapsed(m, &collapsed);
+    else
+        take_fewest(m, &found);
+    info->leaves = m->policy->tree.classes;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ for the caller */
+
+rlvc_status rlvc_policy_default(const rlvc_agent *agent, rlvc_policy_config *config) {
+    if (!agent || !config)
+        return RLVC_E_NULL;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    memset(config, 0, sizeof *config);
+    config->tolerance = 2.0f * agent->config.tolerance;
+    config->percepts =
+        agent->replay.slots < PERCEPTS_DEFAULT ? agent->replay.slots : PERCEPTS_DEFAULT;
+    config->entries = 65536u;
+    config->effort = (uint64_t)1 << 26;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_policy_size(const rlvc_agent *agent, const rlvc_policy_config *config,
+                             size_t *bytes) {
+    maker m;
+    if (!agent || !config || !bytes)
+        return RLVC_E_NULL;
+    *bytes = 0;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    return lay_out(&m, agent, config, NULL, bytes);
+}
+
+rlvc_status rlvc_policy_make(rlvc_agent *agent, const rlvc_policy_config *config, void *memory,
+                             size_t bytes, rlvc_policy **policy, rlvc_policy_info *info) {
+    maker m;
+    rlvc_policy_info made;
+    size_t needed = 0;
+    if (!policy)
+        return RLVC_E_NULL;
+    *policy = NULL;
+    rlvc_status status = rlvc_policy_size(agent, config, &needed);
+    if (status != RLVC_OK)
+        return status;
+    if (!memory)
+        return RLVC_E_NULL;
+    if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
+        return RLVC_E_MEMORY;
+    (void)lay_out(&m, agent, config, memory, &needed);
+    m.made.domain = agent->domain;
+    m.made.actions = agent->config.actions;
+    *m.policy = m.made;
+    memset(&made, 0, sizeof made);
+    agent->busy = 1;
+    status = choose(&m, &made);
+    agent->busy = 0;
+    if (status != RLVC_OK)
+        return status;
+    if (info)
+        *info = made;
+    *policy = m.policy;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_policy_act(rlvc_policy *policy, const void *percept, uint32_t *action) {
+    uint32_t leaf = 0;
+    if (!policy || !percept || !action)
+        return RLVC_E_NULL;
+    if (policy->busy)
+        return RLVC_E_REENTERED;
+    policy->busy = 1;
+    const rlvc_status status = rlvc_tree_classify(&policy->tree, &policy->domain, percept, &leaf);
+    policy->busy = 0;
+    if (status == RLVC_OK)
+        *action = policy->action[leaf];
+    return status;
+}
+
+rlvc_status rlvc_policy_print(rlvc_policy *policy, uint32_t format, rlvc_write write, void *ctx) {
+    if (!policy || !write)
+        return RLVC_E_NULL;
+    if (policy->busy)
+        return RLVC_E_REENTERED;
+    if (format > RLVC_PRINT_JSON)
+        return RLVC_E_RANGE;
+    rlvc_printer p = {{write, ctx, RLVC_OK},
+                      &policy->domain,
+                      &policy->tree,
+                      policy->action,
+                      NULL,
+                      policy->actions,
+                      0};
+    policy->busy = 1;
+    rlvc_printer_run(&p, format);
+    policy->busy = 0;
+    return p.text.status;
+}
+
+rlvc_status rlvc_policy_export_c(rlvc_policy *policy, const char *name, rlvc_write write, void *ctx,
+                                 rlvc_export_info *info) {
+    if (!policy || !name || !write)
+        return RLVC_E_NULL;
+    if (policy->busy)
+        return RLVC_E_REENTERED;
+    policy->busy = 1;
+    const rlvc_status status = rlvc_export_tree(&policy->domain, &policy->tree, policy->action,
+                                                policy->actions, name, write, ctx, info);
+    policy->busy = 0;
+    return status;
+}

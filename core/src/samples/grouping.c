@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* Grouping samples by class and action: see grouping.h. */
+#include "grouping.h"
+
+enum { ZERO, COUNT, SUM, FILL, SHIFT, DONE };
+
+void rlvc_grouping_begin(rlvc_grouping *grouping, uint32_t pairs) {
+    rlvc_keyed_begin(&grouping->keyed, 0);
+    grouping->at = 0;
+    grouping->pairs = pairs;
+    grouping->phase = ZERO;
+    grouping->done = 0;
+}
+
+static void enter(rlvc_grouping *grouping, uint8_t phase) {
+    grouping->phase = phase;
+    grouping->at = 0;
+    grouping->done = phase == DONE;
+    rlvc_keyed_begin(&grouping->keyed, 0);
+}
+
+/* The phases that pass over the ring, a sample at a time. */
+static uint32_t step_samples(rlvc_grouping *grouping, const rlvc_aliasing *aliasing,
+                             rlvc_sample *sample, uint32_t *first, uint32_t budget) {
+    if (grouping->at >= aliasing->returns.end) {
+        enter(grouping, grouping->phase == COUNT ? SUM : SHIFT);
+        return 0;
+    }
+    rlvc_keyed *keyed = &grouping->keyed;
+    uint32_t used = rlvc_keyed_step(keyed, aliasing, budget);
+    if (!keyed->done)
+        return used;
+    if (keyed->defined) {
+        const rlvc_replay *replay = aliasing->returns.replay;
+        uint32_t slot = rlvc_replay_slot(replay, grouping->at);
+        size_t pair = rlvc_values_pair(aliasing->values, replay->label[slot], replay->action[slot]);
+        if (grouping->phase == COUNT) {
+            first[pair + 1u]++;
+        } else {
+            sample[first[pair]].key = keyed->key;
+            sample[first[pair]].slot = slot;
+            first[pair]++;
+        }
+    }
+    rlvc_keyed_begin(keyed, ++grouping->at);
+    return used;
+}
+
+/* The phases that pass over the table of pairs. FILL leaves in first[p] where p + 1 begins; SHIFT, from
+ * the end, puts that right. */
+static uint32_t step_pairs(rlvc_grouping *grouping, uint32_t *first) {
+    uint32_t at = grouping->at;
+    if (at > grouping->pairs) {
+        enter(grouping, grouping->phase == ZERO ? COUNT : grouping->phase == SUM ? FILL : DONE);
+        return 0;
+    }
+    if (grouping->phase == ZERO)
+        first[at] = 0;
+    else if (grouping->phase == SUM)
+        first[at] += at == 0 ? 0 : first[at - 1u];
+    else
+        first[grouping->pairs - at] = at == grouping->pairs ? 0 : first[grouping->pairs - at - 1u];
+    grouping->at++;
+    return 1;
+}
+
+uint32_t rlvc_grouping_step(rlvc_grouping *grouping, const rlvc_aliasing *aliasing,
+                            rlvc_sample *sample, uint32_t *first, uint32_t budget) {
+    uint32_t used = 0;
+    while (used < budget && !grouping->done) {
+        if (grouping->phase == COUNT || grouping->phase == FILL)
+            used += step_samples(grouping, aliasing, sample, first, budget - used);
+        else
+            used += step_pairs(grouping, first);
+    }
+    return used;
+}
+
+void rlvc_grouping_mark(const rlvc_grouping *grouping, uint32_t word[4]) {
+    word[0] = grouping->phase;
+    word[1] = grouping->at;
+    word[2] = grouping->keyed.window.offset;
+    word[3] = grouping->keyed.window.summing;
+}

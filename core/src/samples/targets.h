@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* The aliasing criterion (section 4.2.2): what a class's samples are told apart by.
+ *
+ * A class is aliased if, after the same action, its percepts meet with different targets. The target
+ * of the interaction at time t is
+ *   returns    R_t^k, where it is defined (definitions 1 and 2);
+ *   residual   r_{t+1} + gamma V(C(s_{t+1})), and r_{t+1} alone where the episode terminated: the
+ *              right-hand side of Bellman's equation (2) for the sample.
+ * Whether two targets differ is exact for returns. Under the residual criterion V is only known within
+ * the solver's tolerance, so that targets nearer than twice that tell nothing apart. */
+#ifndef RLVC_SRC_TARGETS_H
+#define RLVC_SRC_TARGETS_H
+
+#include "returns.h"
+#include "../tree/values.h"
+
+/* A third key beside the two criteria's: the class of s', by which the model of the class-level process
+ * counts its transitions; RLVC_NO_CLASS where the episode terminated. */
+#define RLVC_KEY_SUCCESSOR 2u
+
+typedef struct rlvc_aliasing {
+    rlvc_returns returns; /* the database, and the window for RLVC_CRITERION_RETURNS */
+    const rlvc_values *values;
+    float gap;    /* targets of one cluster are within this: 0 for returns, else 2 * tolerance */
+    uint8_t kind; /* RLVC_CRITERION_* or RLVC_KEY_SUCCESSOR */
+} rlvc_aliasing;
+
+/* The key of one sample, in slices. */
+typedef struct rlvc_keyed {
+    rlvc_window window;
+    uint32_t key; /* the result ... */
+    uint8_t defined;
+    uint8_t done;
+} rlvc_keyed;
+
+void rlvc_keyed_begin(rlvc_keyed *keyed, uint32_t position);
+
+/* Works out whether the slot at window.position is a sample, and its key.
+ * @return the work, at most budget (>= 1): one unit, or that of rlvc_window_step for returns. */
+uint32_t rlvc_keyed_step(rlvc_keyed *keyed, const rlvc_aliasing *aliasing, uint32_t budget);
+
+/* Keys order as targets do. -0 and +0 have the same. O(1). */
+uint32_t rlvc_key_of_target(float target);
+float rlvc_target_of_key(uint32_t key);
+
+/* Do two keys, the lower of which is the lowest of its cluster, tell their samples apart? O(1). */
+int rlvc_aliasing_distinct(const rlvc_aliasing *aliasing, uint32_t lowest, uint32_t key);
+
+#endif

@@ -1,0 +1,607 @@
+/* SPDX-License-Identifier: MIT */
+/* The search for the best split of a class: see split_search.h.
+ *
+ * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates at a
+ * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
+ * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
+ * group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
+ * (TEST_ALONE, TEST_TOGETHER), and the split, with config.gate, must pass the gate (OPEN, GATE): if it does not, its
+ * feature is set aside and the candidates are gone through again. */
+#include "split_search.h"
+
+#include "../base/float_math.h"
+#include "rlvc/chi2.h"
+#include "../stats/score.h"
+#include <string.h>
+
+enum {
+    SORT,
+    MARK,
+    PROPOSE,
+    DETECT,
+    SCAN,
+    CLOSE,
+    ASK,
+    ANSWER,
+    TEST_ALONE,
+    TEST_TOGETHER,
+    OPEN,
+    GATE,
+    DONE
+};
+
+void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
+                          uint32_t feature_bytes) {
+    /* All slots hold an interaction when the newest terminated. */
+    uint64_t slots = (uint64_t)config->capacity + 1u;
+    uint64_t words = (slots + 63u * (uint64_t)config->actions) / 64u;
+    uint64_t columns = (words | 1u) * config->features_at_once * sizeof *space->columns;
+    if (columns < RLVC_SORT_SCRATCH_BYTES)
+        columns = RLVC_SORT_SCRATCH_BYTES;
+    space->sample = rlvc_arena_carve(arena, slots, sizeof *space->sample);
+    space->cuts = rlvc_arena_carve(arena, words, sizeof *space->cuts);
+    space->columns = rlvc_arena_carve(arena, 1, columns);
+    space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
+    space->alone = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->together = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->group = rlvc_arena_carve(arena, config->actions, sizeof *space->group);
+    space->pool = rlvc_arena_carve(arena, config->features_at_once, sizeof *space->pool);
+    space->feature_bytes = feature_bytes;
+    space->features_at_once = config->features_at_once;
+    space->actions = config->actions;
+}
+
+static void enter(rlvc_search *search, uint8_t phase) {
+    search->phase = phase;
+    search->at = 0;
+    search->done = phase == DONE;
+}
+
+static uint32_t size_of(const rlvc_group *group) {
+    return group->end - group->begin;
+}
+
+/* The group at work as the domain's oracle sees it. */
+static rlvc_samples view_of(const rlvc_search *search, const rlvc_group *group) {
+    rlvc_samples view = search->view;
+    view.sample += group->begin;
+    view.count = size_of(group);
+    return view;
+}
+
+static void open_sort(rlvc_search *search, const rlvc_workspace *space) {
+    const rlvc_group *group = &space->group[search->action];
+    rlvc_sample *sample = space->sample + (search->view.sample - space->sample) + group->begin;
+    rlvc_sort_begin(&search->inner.sort, sample, size_of(group), space->columns);
+    enter(search, SORT);
+}
+
+uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *first,
+                             rlvc_samples *view) {
+    const rlvc_workspace *space = searching->space;
+    uint32_t words = 0;
+    view->percepts = searching->replay->percept;
+    view->percept_bytes = searching->replay->percept_bytes;
+    view->sample = space->sample + first[0];
+    view->count = first[space->actions] - first[0];
+    for (uint32_t a = 0; a < space->actions; a++) {
+        rlvc_group *group = &space->group[a];
+        group->begin = first[a] - first[0];
+        group->end = first[a + 1u] - first[0];
+        group->cuts = 0;
+        group->word = words;
+        words += (size_of(group) + 63u) / 64u;
+    }
+    return words;
+}
+
+rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_samples *view,
+                                   uint32_t first, uint32_t *written) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_domain *domain = searching->domain;
+    *written = 0;
+    return domain->candidates(domain->ctx, view, first, space->features_at_once, space->features,
+                              written) == 0 &&
+                   *written <= space->features_at_once
+               ? RLVC_OK
+               : RLVC_E_CALLBACK;
+}
+
+rlvc_status rlvc_searching_look(const rlvc_searching *searching, uint32_t slot, const void *feature,
+                                uint8_t *present) {
+    const rlvc_domain *domain = searching->domain;
+    *present = 0;
+    return domain->exhibits(domain->ctx, rlvc_replay_percept(searching->replay, slot), feature,
+                            present) == 0
+               ? RLVC_OK
+               : RLVC_E_CALLBACK;
+}
+
+void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching,
+                       const uint32_t *first) {
+    const rlvc_workspace *space = searching->space;
+    memset(search, 0, sizeof *search);
+    search->words = rlvc_searching_open(searching, first, &search->view);
+    if (search->view.count < searching->min_samples)
+        enter(search, DONE);
+    else
+        open_sort(search, space);
+}
+
+/* ------------------------------------------------------------------ cutpoints */
+
+/* After all groups are marked: begins to look for features, if anything could be told apart. */
+static void end_marking(rlvc_search *search, const rlvc_searching *searching) {
+    search->action = 0;
+    if (search->groups == 0 || search->samples < searching->min_samples)
+        enter(search, DONE);
+    else
+        enter(search, searching->domain->oracle ? ASK : PROPOSE);
+}
+
+/* Goes on to the next group. */
+static void close_group(rlvc_search *search, const rlvc_searching *searching) {
+    rlvc_group *group = &searching->space->group[search->action];
+    if (searching->score == RLVC_SCORE_RANKS && group->cuts > 0)
+        group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
+    search->groups += group->cuts > 0;
+    search->samples += group->cuts > 0 ? size_of(group) : 0;
+    search->cuts += group->cuts;
+    if (++search->action == searching->space->actions)
+        end_marking(search, searching);
+    else
+        open_sort(search, searching->space);
+}
+
+/* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered into
+ * clusters from the lowest up as targets.h tells them apart. */
+static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint32_t budget) {
+    rlvc_group *group = &searching->space->group[search->action];
+    const rlvc_sample *sample = search->view.sample + group->begin;
+    uint64_t *cuts = searching->space->cuts + group->word;
+    uint32_t from = search->at, left = size_of(group) - from;
+    uint32_t to = from + (left < budget ? left : budget);
+    for (uint32_t at = from; at < to; at++) {
+        if (at % 64u == 0)
+            cuts[at / 64u] = 0;
+        if (at == 0) {
+            search->lowest = sample[at].key;
+        } else if (rlvc_aliasing_distinct(searching->aliasing, search->lowest, sample[at].key)) {
+            cuts[at / 64u] |= (uint64_t)1 << at % 64u;
+            group->cuts++;
+            search->lowest = sample[at].key;
+        }
+    }
+    search->at = to;
+    if (to == size_of(group))
+        close_group(search, searching);
+    return to - from;
+}
+
+/* ------------------------------------------------------------------ the default oracle */
+
+/* Goes to the first group from search->action on that takes part; at the end, to the phase `then`. */
+static void next_group(rlvc_search *search, const rlvc_workspace *space, uint8_t phase,
+                       uint8_t then) {
+    while (search->action < space->actions && space->group[search->action].cuts == 0)
+        search->action++;
+    search->column = 0;
+    enter(search, search->action < space->actions ? phase : then);
+}
+
+/* Asks for the next block of candidates. */
+static rlvc_status propose(rlvc_search *search, const rlvc_searching *searching) {
+    static const rlvc_pool nothing = {0.0f, 0.0f, 0.0f, 0};
+    const rlvc_workspace *space = searching->space;
+    uint32_t written;
+    rlvc_status status = rlvc_searching_propose(searching, &search->view, search->first, &written);
+    if (status != RLVC_OK)
+        return status;
+    search->block = written;
+    search->action = 0;
+    for (uint32_t j = 0; j < written; j++)
+        space->pool[j] = nothing;
+    if (written == 0)
+        enter(search, TEST_ALONE);
+    else
+        next_group(search, space, DETECT, DONE);
+    return RLVC_OK;
+}
+
+/* 64 samples and the whole block by the domain's batch detector. */
+static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searching,
+                                const rlvc_group *group, uint32_t *used) {
+    uint64_t bits[RLVC_DETECT_FEATURES];
+    const rlvc_domain *domain = searching->domain;
+    uint32_t left = size_of(group) - search->at;
+    uint32_t n = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
+    if (domain->detect(domain->ctx, &search->view, group->begin + search->at, n,
+                       searching->space->features, search->block, bits) != 0)
+        return RLVC_E_CALLBACK;
+    for (uint32_t j = 0; j < search->block; j++) {
+        uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
+        column[group->word + search->at / 64u] = bits[j];
+    }
+    search->at += n;
+    *used = n;
+    return RLVC_OK;
+}
+
+/* One sample and the whole block by the feature detector. */
+static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *searching,
+                               const rlvc_group *group, uint32_t *used) {
+    uint32_t slot = search->view.sample[group->begin + search->at].slot;
+    for (uint32_t j = 0; j < search->block; j++) {
+        uint8_t present;
+        rlvc_status status = rlvc_searching_look(
+            searching, slot, rlvc_workspace_feature(searching->space, j), &present);
+        if (status != RLVC_OK)
+            return status;
+        uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
+        uint64_t *word = &column[group->word + search->at / 64u];
+        uint64_t before = search->at % 64u == 0 ? 0 : *word;
+        *word = before | (uint64_t)(present != 0) << search->at % 64u;
+    }
+    search->at++;
+    *used = search->block;
+    return RLVC_OK;
+}
+
+/* Begins to scan the column that search->column names. Where there is but one group, a column that cannot
+ * beat the best so far need not be scanned to the end; else its own best counts, for the sum. */
+static void open_column(rlvc_search *search, const rlvc_searching *searching,
+                        const rlvc_group *group) {
+    const rlvc_workspace *space = searching->space;
+    rlvc_scan_begin(&search->inner.scan,
+                    rlvc_workspace_column(space, search->words, search->column) + group->word,
+                    space->cuts + group->word, size_of(group), searching->score,
+                    search->groups == 1 ? search->alone.score : 0.0f);
+}
+
+static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, uint32_t *used) {
+    const rlvc_group *group = &searching->space->group[search->action];
+    rlvc_status status = searching->domain->detect ? detect_batch(search, searching, group, used)
+                                                   : detect_each(search, searching, group, used);
+    if (status == RLVC_OK && search->at == size_of(group)) {
+        open_column(search, searching, group);
+        enter(search, SCAN);
+    }
+    return status;
+}
+
+/* ------------------------------------------------------------------ evidence */
+
+/* Weighs a cutpoint of the group at work: its table, and the evidence. */
+static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *searching,
+                         const rlvc_cut *cut, uint32_t count) {
+    uint32_t above = cut->present - cut->present_below;
+    const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
+                              count - cut->below - above};
+    rlvc_single weighed = {0.0f, cut->score, table, search->action};
+    weighed.evidence = searching->score >= RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
+    return weighed;
+}
+
+static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
+                            const rlvc_single *found, uint32_t j) {
+    const rlvc_single *best = &search->alone;
+    if (found->evidence > best->evidence ||
+        (found->evidence == best->evidence && found->action < best->action)) {
+        search->alone = *found;
+        search->alone_number = search->first + j;
+        memcpy(space->alone, rlvc_workspace_feature(space, j), space->feature_bytes);
+    }
+}
+
+/* Has the gate set candidate `number` aside? */
+static int is_refused(const rlvc_search *search, uint32_t number) {
+    return (int)(search->refused[number / 32u % 2u] >> number % 32u & 1u);
+}
+
+/* Takes the result of one column and goes on to the next, or to the next group. */
+static void close_column(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_group *group = &space->group[search->action];
+    const rlvc_cut *found = &search->inner.scan.best;
+    rlvc_pool *pool = &space->pool[search->column];
+    if (found->present > 0 && found->present < size_of(group)) {
+        pool->degrees++;
+        pool->log_tests += rlvc_ln((float)group->cuts);
+    }
+    if (found->score > 0.0f && !is_refused(search, search->first + search->column)) {
+        rlvc_single weighed = weigh(search, searching, found, size_of(group));
+        pool->evidence += weighed.evidence;
+        pool->statistic += searching->score == RLVC_SCORE_RANKS
+                               ? weighed.evidence
+                               : rlvc_table_statistic(&weighed.table);
+        keep_best_alone(search, space, &weighed, search->column);
+    }
+    if (++search->column < search->block) {
+        open_column(search, searching, group);
+        return;
+    }
+    search->action++;
+    next_group(search, space, DETECT, CLOSE);
+}
+
+/* All groups have seen the block: looks at feature `column` of it, together. A unit each. */
+static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
+    const rlvc_pool *pool = &space->pool[search->column];
+    search->features += pool->degrees > 0;
+    if (pool->evidence > search->together.evidence) {
+        search->together = *pool;
+        search->together_number = search->first + search->column;
+        memcpy(space->together, rlvc_workspace_feature(space, search->column),
+               space->feature_bytes);
+    }
+    if (++search->column < search->block)
+        return;
+    search->first += search->block;
+    enter(search, search->block < space->features_at_once ? TEST_ALONE : PROPOSE);
+}
+
+/* ------------------------------------------------------------------ the domain's own oracle */
+
+/* Puts the next cutpoint of the group at work to the oracle. */
+static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_domain *domain = searching->domain;
+    const rlvc_group *group = &space->group[search->action];
+    uint32_t at = search->at;
+    if (group->cuts == 0 || at == size_of(group)) {
+        search->action++;
+        next_group(search, space, ASK, TEST_ALONE);
+        return RLVC_OK;
+    }
+    if (space->cuts[group->word + at / 64u] >> at % 64u & 1u) {
+        static const rlvc_answer nothing = {0, 0, 0, 0};
+        rlvc_samples view = view_of(search, group);
+        rlvc_answer *answer = &search->inner.answer;
+        *answer = nothing;
+        if (domain->oracle(domain->ctx, &view, at, space->features, &answer->considered) != 0)
+            return RLVC_E_CALLBACK;
+        if (answer->considered > 0) {
+            search->phase = ANSWER;
+            return RLVC_OK;
+        }
+    }
+    search->at++;
+    return RLVC_OK;
+}
+
+/* Looks for the oracle's feature in one sample; after the last, weighs it at the oracle's cutpoint. */
+static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_workspace *space = searching->space;
+    const rlvc_group *group = &space->group[search->action];
+    rlvc_answer *answer = &search->inner.answer;
+    uint32_t count = size_of(group), below = search->at;
+    if (answer->at < count) {
+        uint8_t present;
+        uint32_t slot = search->view.sample[group->begin + answer->at].slot;
+        rlvc_status status = rlvc_searching_look(searching, slot, space->features, &present);
+        if (status != RLVC_OK)
+            return status;
+        answer->present += present != 0;
+        answer->present_below += present != 0 && answer->at < below;
+        answer->at++;
+        return RLVC_OK;
+    }
+    search->phase = ASK;
+    search->at++;
+    if (answer->present == 0 || answer->present == count)
+        return RLVC_OK;
+    search->features += answer->considered;
+    uint32_t above = answer->present - answer->present_below;
+    rlvc_cut cut = {0.0f, below, answer->present_below, answer->present};
+    cut.score = rlvc_score(searching->score, cut.present_below, below - cut.present_below, above,
+                           count - below - above);
+    rlvc_single weighed = weigh(search, searching, &cut, count);
+    keep_best_alone(search, space, &weighed, 0);
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ the gate */
+
+/* What is charged for a sample that the gate looks at: it is arithmetic. */
+#define GATE_UNITS 2u
+
+/* The p-values are there. What is surely chance need not come to the gate. */
+static uint32_t open_gate(rlvc_search *search, const rlvc_workspace *space) {
+    rlvc_split about;
+    const void *feature = rlvc_search_result(search, space, &about);
+    rlvc_gate_begin(&search->inner.gate, feature);
+    search->column =
+        about.action == space->actions ? search->together_number : search->alone_number;
+    search->action = 0;
+    enter(search, about.log_p < 0.0f ? GATE : DONE);
+    return RLVC_TEST_UNITS;
+}
+
+/* Sets the feature aside, and goes through the candidates again: what explains the targets best may be of no use
+ * to any action, and hide what is. */
+static void refuse(rlvc_search *search) {
+    search->refused[search->column / 32u % 2u] |= 1u << search->column % 32u;
+    search->alone.evidence = 0.0f;
+    search->alone.score = 0.0f;
+    search->together.evidence = 0.0f;
+    search->together.degrees = 0;
+    search->features = 0;
+    search->first = 0;
+    enter(search, PROPOSE);
+}
+
+/* One sample of the group at work; after the last, the group. */
+static rlvc_status gate(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_group *group = &searching->space->group[search->action];
+    rlvc_gate *gate = &search->inner.gate;
+    if (search->at < size_of(group)) {
+        uint8_t present;
+        const rlvc_sample *sample = &search->view.sample[group->begin + search->at];
+        rlvc_status status = rlvc_searching_look(searching, sample->slot, gate->feature, &present);
+        if (status != RLVC_OK)
+            return status;
+        rlvc_gate_add(gate, rlvc_target_of_key(sample->key), present != 0);
+        search->at++;
+        return RLVC_OK;
+    }
+    int passes = rlvc_gate_close(gate, searching->min_samples, searching->aliasing->gap);
+    search->at = 0;
+    if (++search->action < searching->space->actions)
+        return RLVC_OK;
+    if (passes)
+        enter(search, DONE);
+    else
+        refuse(search);
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+/* Finds the p-value of one of the winners, if there are any. */
+static uint32_t test(rlvc_search *search, const rlvc_searching *searching) {
+    const rlvc_pool *together = &search->together;
+    const uint8_t after = searching->gate ? OPEN : DONE;
+    if (!(search->alone.evidence > 0.0f)) {
+        enter(search, DONE);
+        return 1;
+    }
+    if (search->phase == TEST_ALONE) {
+        if (searching->score == RLVC_SCORE_RANKS)
+            (void)rlvc_chi2_survival(search->alone.score, 1, NULL, &search->alone_log_p);
+        else
+            search->alone_log_p = rlvc_table_log_p(&search->alone.table);
+        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : after);
+    } else {
+        (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
+                                 &search->together_log_p);
+        enter(search, after);
+    }
+    return RLVC_TEST_UNITS;
+}
+
+/* One elementary step of the phase. */
+static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
+                           uint32_t *used) {
+    *used = 1;
+    switch (search->phase) {
+    case SORT:
+        *used = rlvc_sort_step(&search->inner.sort, budget);
+        if (search->inner.sort.done)
+            enter(search, MARK);
+        return RLVC_OK;
+    case MARK:
+        *used = mark(search, searching, budget);
+        return RLVC_OK;
+    case PROPOSE:
+        return propose(search, searching);
+    case DETECT:
+        return detect(search, searching, used);
+    case SCAN:
+        *used = rlvc_scan_step(&search->inner.scan, budget);
+        if (search->inner.scan.done)
+            close_column(search, searching);
+        return RLVC_OK;
+    case CLOSE:
+        close_feature(search, searching->space);
+        return RLVC_OK;
+    case ASK:
+        return ask(search, searching);
+    case ANSWER:
+        return answer(search, searching);
+    case OPEN:
+        *used = open_gate(search, searching->space);
+        return RLVC_OK;
+    case GATE:
+        *used = GATE_UNITS;
+        return gate(search, searching);
+    default:
+        *used = test(search, searching);
+        return RLVC_OK;
+    }
+}
+
+/* The units that the phase needs to get on: the steps of some are not divided further. */
+static uint32_t needed(const rlvc_search *search) {
+    int divided = search->phase == MARK || search->phase == PROPOSE || search->phase == CLOSE ||
+                  search->phase == ASK || search->phase == ANSWER;
+    return divided ? 1u : RLVC_BUDGET_MIN;
+}
+
+rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
+                             uint32_t *used) {
+    *used = 0;
+    while (!search->done && budget - *used >= needed(search)) {
+        uint32_t units = 0;
+        rlvc_status status = advance(search, searching, budget - *used, &units);
+        if (status != RLVC_OK)
+            return status;
+        *used += units;
+    }
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *searching) {
+    uint32_t used = 0;
+    if (search->phase == SORT && !search->inner.sort.done) {
+        rlvc_sort_single(&search->inner.sort);
+        if (search->inner.sort.done)
+            enter(search, MARK);
+    } else if (search->phase == MARK) {
+        (void)mark(search, searching, 1);
+    } else if (search->phase == SCAN) {
+        rlvc_scan_single(&search->inner.scan);
+        if (search->inner.scan.done)
+            close_column(search, searching);
+    } else {
+        return advance(search, searching, RLVC_BUDGET_MIN, &used);
+    }
+    return RLVC_OK;
+}
+
+void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]) {
+    word[0] = search->phase;
+    word[1] = search->action;
+    word[2] = search->at;
+    word[3] = search->first;
+    word[4] = search->column;
+    word[8] = search->refused[0];
+    word[9] = search->refused[1];
+    if (search->phase == SORT)
+        rlvc_sort_mark(&search->inner.sort, word + 5);
+    else if (search->phase == SCAN)
+        rlvc_scan_mark(&search->inner.scan, word + 5);
+    else if (search->phase == ANSWER)
+        word[5] = search->inner.answer.at;
+}
+
+const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
+                               rlvc_split *about) {
+    const rlvc_single *alone = &search->alone;
+    if (!(alone->evidence > 0.0f))
+        return NULL;
+    float log_features = rlvc_ln((float)search->features);
+    about->action = alone->action;
+    about->samples = size_of(&space->group[alone->action]);
+    about->score = alone->score;
+    about->log_tests = log_features;
+    /* The domain's own oracle already counts a feature for each cutpoint, and makes no sum. */
+    if (search->together.degrees > 0)
+        about->log_tests += rlvc_ln((float)search->cuts);
+    about->log_p = search->alone_log_p + about->log_tests;
+    if (search->groups > 1 && search->together.degrees > 0) {
+        const rlvc_pool *together = &search->together;
+        float log_tests = log_features + together->log_tests;
+        float log_p = search->together_log_p + log_tests;
+        if (log_p < about->log_p) {
+            about->action = space->actions;
+            about->samples = search->samples;
+            about->score = together->evidence / (float)search->samples;
+            about->log_tests = log_tests;
+            about->log_p = log_p;
+        }
+        about->log_tests += rlvc_ln(2.0f);
+        about->log_p += rlvc_ln(2.0f);
+    }
+    about->log_p = about->log_p < 0.0f ? about->log_p : 0.0f;
+    return about->action == space->actions ? space->together : space->alone;
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* Fisher's exact test of a 2 x 2 table.
+ *
+ * Were rows and columns independent, then, given the sums of rows and columns, N in all, a table with the cells
+ * a, b, c, d would have the probability (it is hypergeometric)
+ *
+ *     P = (a + b)! (c + d)! (a + c)! (b + d)! / (N! a! b! c! d!).
+ *
+ * The factorials nearly cancel. With n! = n^n e^-n sqrt(2 pi n) e^c(n), the powers leave the information gain, which
+ * score.c computes without cancelling (g bits a sample), and the roots one logarithm:
+ *
+ *     ln P = 1/2 ln(product of the four sums / (2 pi N product of the four cells))
+ *            + c of the four sums - c(N) - c of the four cells - N g ln 2.
+ *
+ * 0! = 1 comes out with 1 in place of n under the root.
+ *
+ * The tables on the same side are farther and farther from independence; where a d >= b c, the next has
+ * a + 1, b - 1, c - 1, d + 1, and is b c / ((a + 1)(d + 1)) times as probable. The p-value is twice their sum. As the
+ * least expected count is bounded, so is the work: a sum of some dozens of terms. */
+#include "table_test.h"
+
+#include "../base/float_math.h"
+#include "rlvc/agent.h"
+#include "rlvc/chi2.h"
+#include "score.h"
+#include <stddef.h>
+
+#define LN_2 0.693147181f
+#define HALF_LN_2_PI 0.918938533f
+
+/* Below this expected count a table alone is tested exactly; in a sum, below that (Cochran 1954). */
+#define EXPECTED_ALONE 5u
+#define EXPECTED_IN_SUM 1u
+
+/* Terms below it, of sums above 1, are not seen. */
+#define NEGLIGIBLE 1e-6f
+
+/* c(n): from 4 on by Stirling's series. */
+static float correction(uint32_t n) {
+    static const float small[4] = {-0.918938533f, 0.081061467f, 0.041340696f, 0.027677926f};
+    if (n < 4)
+        return small[n];
+    float inverse = 1.0f / (float)n;
+    float square = inverse * inverse;
+    return inverse * (1.0f / 12.0f - square * (1.0f / 360.0f - square * (1.0f / 1260.0f)));
+}
+
+/* x / y, each 1 if it is 0. */
+static float ratio(uint32_t x, uint32_t y) {
+    return (float)(x > 0 ? x : 1u) / (float)(y > 0 ? y : 1u);
+}
+
+/* N g ln 2. */
+static float likelihood(const rlvc_table *t) {
+    float gain = rlvc_score(RLVC_SCORE_GAIN, t->a, t->b, t->c, t->d);
+    return (float)(t->a + t->b + t->c + t->d) * (LN_2 * gain);
+}
+
+/* ln P. */
+static float ln_probability(const rlvc_table *t) {
+    const uint32_t sums[4] = {t->a + t->b, t->c + t->d, t->a + t->c, t->b + t->d};
+    const uint32_t cells[4] = {t->a, t->d, t->c, t->b};
+    uint32_t n = sums[0] + sums[1];
+    float quotient = ratio(1, n), corrections = -correction(n);
+    for (int i = 0; i < 4; i++) {
+        quotient *= ratio(sums[i], cells[i]);
+        corrections += correction(sums[i]) - correction(cells[i]);
+    }
+    return (0.5f * rlvc_ln(quotient) - HALF_LN_2_PI) + corrections - likelihood(t);
+}
+
+/* The probability of all tables as far from independence on this side, as a multiple of P. */
+static float tail(const rlvc_table *t) {
+    float a = (float)t->a, b = (float)t->b, c = (float)t->c, d = (float)t->d;
+    if (a * d < b * c) {
+        float swapped = a;
+        a = b;
+        b = swapped;
+        swapped = c;
+        c = d;
+        d = swapped;
+    }
+    float w = 1.0f, sum = 1.0f;
+    while (w > NEGLIGIBLE) {
+        a += 1.0f;
+        d += 1.0f;
+        w *= b * c / (a * d); /* 0 once b or c is */
+        b -= 1.0f;
+        c -= 1.0f;
+        sum += w;
+    }
+    return sum;
+}
+
+static float ln_exact(const rlvc_table *table) {
+    float ln_p = ln_probability(table) + rlvc_ln(2.0f * tail(table));
+    return ln_p < 0.0f ? ln_p : 0.0f;
+}
+
+static uint32_t least(uint32_t x, uint32_t y) {
+    return x < y ? x : y;
+}
+
+static int expects_below(const rlvc_table *t, uint32_t count) {
+    uint64_t row = least(t->a + t->b, t->c + t->d), column = least(t->a + t->c, t->b + t->d);
+    return row * column < (uint64_t)count * (t->a + t->b + t->c + t->d);
+}
+
+static float pearson(const rlvc_table *table) {
+    float statistic = 0.0f;
+    (void)rlvc_chi2_table(table->a, table->b, table->c, table->d, &statistic);
+    return statistic;
+}
+
+float rlvc_table_log_p(const rlvc_table *table) {
+    float log_p = 0.0f;
+    if (expects_below(table, EXPECTED_ALONE))
+        return ln_exact(table);
+    (void)rlvc_chi2_survival(pearson(table), 1, NULL, &log_p);
+    return log_p;
+}
+
+float rlvc_table_statistic(const rlvc_table *table) {
+    return expects_below(table, EXPECTED_IN_SUM) ? 2.0f * likelihood(table) : pearson(table);
+}
+
+rlvc_status rlvc_fisher_table(uint32_t a, uint32_t b, uint32_t c, uint32_t d, float *p,
+                              float *log_p) {
+    const rlvc_table table = {a, b, c, d};
+    if ((uint64_t)a + b + c + d > INT32_MAX)
+        return RLVC_E_RANGE;
+    if (a + b + c + d > 0 && !expects_below(&table, RLVC_FISHER_EXPECTED_MAX + 1u))
+        return RLVC_E_RANGE;
+    float ln_p = ln_exact(&table);
+    if (p)
+        *p = rlvc_exp(ln_p);
+    if (log_p)
+        *log_p = ln_p;
+    return RLVC_OK;
+}

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT */
+/* Marks of cursors, and the way back to them: see cursor_marks.h. */
+#include "cursor_marks.h"
+
+#include "../agent/learn.h"
+#include <string.h>
+
+/* ------------------------------------------------------------------ marks */
+
+void rlvc_resume_mark(const rlvc_agent *agent, rlvc_mark *mark) {
+    const rlvc_learner *learner = &agent->learner;
+    memset(mark, 0, sizeof *mark);
+    if (learner->phase == RLVC_PHASE_GROUP)
+        rlvc_grouping_mark(&learner->work.grouping, mark->word);
+    else if (learner->phase == RLVC_PHASE_MODEL)
+        rlvc_model_mark(&learner->work.model, mark->word);
+    else if (learner->phase == RLVC_PHASE_SOLVE)
+        rlvc_solver_mark(&learner->work.solver, mark->word);
+    else if (learner->phase == RLVC_PHASE_SEEK)
+        rlvc_seeking_mark(&learner->work.seeking, mark->word);
+    else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching)
+        rlvc_search_mark(&learner->work.search, mark->word);
+    else if (learner->phase == RLVC_PHASE_SUCCESSION && learner->searching)
+        rlvc_succession_mark(&learner->work.succession, mark->word);
+}
+
+/* ------------------------------------------------------------------ checks */
+
+/* The highest `at` of each phase, or 0 where it is not used. */
+static uint32_t last_at(const rlvc_agent *agent) {
+    switch (agent->learner.phase) {
+    case RLVC_PHASE_LABEL:
+        return agent->replay.frozen;
+    case RLVC_PHASE_KEEP:
+    case RLVC_PHASE_FINISH:
+        return agent->tree.classes;
+    case RLVC_PHASE_SEARCH:
+    case RLVC_PHASE_SUCCESSION:
+        return agent->learner.classes;
+    default:
+        return 0;
+    }
+}
+
+/* Does the config have such a phase? */
+static int phase_is_possible(const rlvc_agent *agent) {
+    int incremental = rlvc_is_incremental(&agent->config);
+    switch (agent->learner.phase) {
+    case RLVC_PHASE_KEEP:
+        return incremental && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
+    case RLVC_PHASE_MODEL:
+    case RLVC_PHASE_SOLVE:
+        return !incremental;
+    case RLVC_PHASE_SEEK:
+        return !incremental && agent->config.explore == RLVC_EXPLORE_DIRECTED;
+    case RLVC_PHASE_SUCCESSION:
+        return agent->config.successors && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
+    default:
+        return agent->learner.phase <= RLVC_PHASE_FINISH;
+    }
+}
+
+/* Is the database what rlvc_replay_freeze made of some ring: does each s' in it have a label to come? */
+static int database_is_sound(const rlvc_agent *agent) {
+    const rlvc_replay *replay = &agent->replay;
+    uint32_t end = agent->learner.end;
+    if (replay->frozen < end || replay->frozen - end > 1u)
+        return 0;
+    int awaited = end > 0 && rlvc_replay_linked(replay, rlvc_replay_slot(replay, end - 1u));
+    return awaited == (replay->frozen > end);
+}
+
+/* Labels that were given in this step are classes of the round. */
+static int labels_are_sound(const rlvc_agent *agent) {
+    const rlvc_learner *learner = &agent->learner;
+    const rlvc_replay *replay = &agent->replay;
+    uint32_t given = learner->phase == RLVC_PHASE_LABEL ? learner->at : replay->frozen;
+    for (uint32_t position = 0; position < given; position++) {
+        if (replay->label[rlvc_replay_slot(replay, position)] >= learner->classes)
+            return 0;
+    }
+    return 1;
+}
+
+/* Where `pending` names a class, that was split from this one. (While prioritized sweeping is under way
+ * priorities stand there, of which any will do.) */
+static int pending_is_sound(const rlvc_agent *agent) {
+    if (agent->config.solver == RLVC_SOLVER_PRIORITIZED &&
+        agent->learner.phase == RLVC_PHASE_SOLVE)
+        return 1;
+    for (uint32_t c = 0; c < agent->tree.classes; c++) {
+        uint32_t made = agent->pending[c];
+        if (made != 0 &&
+            (made >= agent->tree.classes || agent->tree.split[made - 1u].about.class_id != c))
+            return 0;
+    }
+    return 1;
+}
+
+int rlvc_resume_check(const rlvc_agent *agent) {
+    const rlvc_learner *learner = &agent->learner;
+    if (!phase_is_possible(agent) || !pending_is_sound(agent))
+        return 0;
+    if (learner->phase == RLVC_PHASE_IDLE)
+        return agent->replay.frozen == 0;
+    int searching = rlvc_phase_splits(learner->phase);
+    if (learner->at > last_at(agent) || learner->node > 2u * (agent->tree.classes - 1u))
+        return 0;
+    if (learner->made > agent->tree.classes || learner->splits >= agent->tree.classes)
+        return 0;
+    if (learner->classes != agent->tree.classes - (searching ? learner->made : 0))
+        return 0;
+    if (learner->searching > (searching && learner->at < learner->classes))
+        return 0;
+    return database_is_sound(agent) && labels_are_sound(agent);
+}
+
+/* ------------------------------------------------------------------ the way back */
+
+static int is_done(const rlvc_agent *agent) {
+    const rlvc_learner *learner = &agent->learner;
+    if (learner->phase == RLVC_PHASE_GROUP)
+        return learner->work.grouping.done;
+    if (learner->phase == RLVC_PHASE_SUCCESSION)
+        return learner->work.succession.done;
+    if (learner->phase == RLVC_PHASE_SEEK)
+        return learner->work.seeking.done;
+    return learner->phase == RLVC_PHASE_MODEL ? learner->work.model.done
+                                              : learner->work.search.done;
+}
+
+/* What was counted while the phase was under way stays as it was loaded. */
+static void seek_single(rlvc_agent *agent) {
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    rlvc_explorer counted = agent->explorer;
+    counted.seen = NULL;
+    (void)rlvc_seeking_step(&agent->learner.work.seeking, &solving, &agent->values, &counted, 1);
+}
+
+static rlvc_status single(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
+    rlvc_aliasing successor = rlvc_learner_aliasing(agent, RLVC_KEY_SUCCESSOR);
+    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    if (learner->phase == RLVC_PHASE_SEARCH)
+        return rlvc_search_single(&learner->work.search, &searching);
+    if (learner->phase == RLVC_PHASE_SUCCESSION)
+        return rlvc_succession_single(&learner->work.succession, &searching);
+    if (learner->phase == RLVC_PHASE_SEEK)
+        seek_single(agent);
+    else if (learner->phase == RLVC_PHASE_GROUP)
+        (void)rlvc_grouping_step(&learner->work.grouping, &criterion, agent->space.sample,
+                                 agent->values.first, 1);
+    else
+        rlvc_model_single(&learner->work.model, &successor, &agent->values, agent->space.sample,
+                          agent->space.columns);
+    return RLVC_OK;
+}
+
+/* Goes on until the mark is reached; without one, until the phase is done. */
+static rlvc_status advance_to(rlvc_agent *agent, const rlvc_mark *mark) {
+    for (;;) {
+        rlvc_mark here;
+        rlvc_resume_mark(agent, &here);
+        if (mark && memcmp(&here, mark, sizeof here) == 0)
+            return RLVC_OK;
+        if (is_done(agent))
+            return mark ? RLVC_E_DAMAGED : RLVC_OK;
+        rlvc_status status = single(agent);
+        if (status != RLVC_OK)
+            return status;
+    }
+}
+
+/* Does GROUP or MODEL anew, up to a mark or to its end. */
+static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_mark *mark) {
+    rlvc_learner *learner = &agent->learner;
+    uint8_t now = learner->phase;
+    uint32_t pairs = learner->classes * agent->config.actions;
+    learner->phase = phase;
+    if (phase == RLVC_PHASE_GROUP)
+        rlvc_grouping_begin(&learner->work.grouping, pairs);
+    else
+        rlvc_model_begin(&learner->work.model, pairs);
+    rlvc_status status = advance_to(agent, mark);
+    learner->phase = now;
+    return status;
+}
+
+static rlvc_status redo_search(rlvc_agent *agent, const rlvc_mark *mark) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
+    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    (void)redo(agent, RLVC_PHASE_GROUP, NULL);
+    if (!learner->searching)
+        return RLVC_OK;
+    const uint32_t *first = agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0);
+    if (learner->phase == RLVC_PHASE_SUCCESSION)
+        rlvc_succession_begin(&learner->work.succession, &searching, first);
+    else
+        rlvc_search_begin(&learner->work.search, &searching, first);
+    return advance_to(agent, mark);
+}
+
+/* The solver goes over the values in place, so that its cursor is taken from the mark itself. */
+static rlvc_status redo_solve(rlvc_agent *agent, const rlvc_mark *mark) {
+    rlvc_solver *solver = &agent->learner.work.solver;
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    (void)redo(agent, RLVC_PHASE_MODEL, NULL);
+    rlvc_solver_begin(solver, agent->config.solver);
+    return rlvc_solver_restore(solver, &solving, &agent->values, mark->word) ? RLVC_OK
+                                                                             : RLVC_E_DAMAGED;
+}
+
+static rlvc_status redo_seek(rlvc_agent *agent, const rlvc_mark *mark) {
+    rlvc_solving solving = rlvc_learner_solving(agent);
+    (void)redo(agent, RLVC_PHASE_MODEL, NULL);
+    rlvc_seeking_begin(&agent->learner.work.seeking, &solving, &agent->values);
+    return advance_to(agent, mark);
+}
+
+rlvc_status rlvc_resume(rlvc_agent *agent, const rlvc_mark *mark) {
+    static const rlvc_mark none = {{0}};
+    rlvc_learner *learner = &agent->learner;
+    if (learner->phase == RLVC_PHASE_SEEK)
+        return redo_seek(agent, mark);
+    if (learner->phase == RLVC_PHASE_SOLVE)
+        return redo_solve(agent, mark);
+    if (rlvc_phase_splits(learner->phase) && learner->searching)
+        return redo_search(agent, mark);
+    if (learner->phase == RLVC_PHASE_GROUP || learner->phase == RLVC_PHASE_MODEL)
+        return redo(agent, learner->phase, mark);
+    if (memcmp(mark, &none, sizeof none) != 0)
+        return RLVC_E_DAMAGED;
+    return rlvc_phase_splits(learner->phase) ? redo_search(agent, mark) : RLVC_OK;
+}

@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: MIT */
+/* What a snapshot holds, in order: see SPEC.md.
+ *
+ * Each part is one function that passes its fields through a stream, whichever way that goes. Where what
+ * is loaded decides how much there is to come, it is checked at once; the rest is checked at the end. */
+#include "rlvc/snapshot.h"
+
+#include "../agent/config.h"
+#include "cursor_marks.h"
+#include "two_slot.h"
+#include <string.h>
+
+/* ------------------------------------------------------------------ the parts */
+
+static void pass_config(rlvc_stream *s, rlvc_config *config) {
+    rlvc_stream_u32(s, &config->actions);
+    rlvc_stream_u32(s, &config->capacity);
+    rlvc_stream_u32(s, &config->classes);
+    rlvc_stream_u32(s, &config->features_at_once);
+    rlvc_stream_u32(s, &config->min_samples);
+    rlvc_stream_u32(s, &config->max_sweeps);
+    rlvc_stream_u32(s, &config->seed);
+    rlvc_stream_u8(s, &config->criterion);
+    rlvc_stream_u8(s, &config->score);
+    rlvc_stream_u8(s, &config->solver);
+    rlvc_stream_u8(s, &config->untried);
+    rlvc_stream_u8(s, &config->continuing);
+    rlvc_stream_u8(s, &config->successors);
+    rlvc_stream_u8(s, &config->explore);
+    rlvc_stream_u8(s, &config->gate);
+    rlvc_stream_float(s, &config->discount);
+    rlvc_stream_float(s, &config->epsilon);
+    rlvc_stream_float(s, &config->alpha);
+    rlvc_stream_float(s, &config->alpha_known);
+    rlvc_stream_float(s, &config->tolerance);
+    rlvc_stream_float(s, &config->learning_rate);
+    rlvc_stream_float(s, &config->optimistic_value);
+}
+
+/* Whose snapshot it is. */
+static void pass_identity(rlvc_stream *s, uint32_t *percept_bytes, uint32_t *feature_bytes,
+                          rlvc_config *config) {
+    rlvc_stream_u32(s, percept_bytes);
+    rlvc_stream_u32(s, feature_bytes);
+    pass_config(s, config);
+}
+
+static void pass_counters(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_stream_u64(s, &agent->interactions);
+    rlvc_stream_u64(s, &agent->rng.state);
+    rlvc_stream_u32(s, &agent->step);
+    rlvc_stream_u32(s, &agent->run);
+    rlvc_stream_u32(s, &agent->last_split);
+    rlvc_stream_u32(s, &agent->refused);
+    rlvc_stream_u32(s, &agent->sweeps);
+    rlvc_stream_float(s, &agent->residual);
+}
+
+/* A slot without an interaction holds what was there before it: that is passed as zeros. */
+static void pass_slot(rlvc_stream *s, rlvc_replay *replay, uint32_t slot) {
+    float reward = 0.0f;
+    uint8_t action = 0;
+    if (s->mode != RLVC_STREAM_LOAD && (replay->flags[slot] & RLVC_SLOT_STORED)) {
+        reward = replay->reward[slot];
+        action = replay->action[slot];
+    }
+    rlvc_stream_bytes(s, replay->percept + (size_t)slot * replay->percept_bytes,
+                      replay->percept_bytes);
+    rlvc_stream_float(s, &reward);
+    rlvc_stream_u16(s, &replay->label[slot]);
+    rlvc_stream_u8(s, &action);
+    rlvc_stream_u8(s, &replay->flags[slot]);
+    if (s->mode == RLVC_STREAM_LOAD) {
+        replay->reward[slot] = reward;
+        replay->action[slot] = action;
+    }
+}
+
+/* @return 0 if what was loaded does not fit. */
+static int pass_replay(rlvc_stream *s, rlvc_replay *replay) {
+    rlvc_stream_u32(s, &replay->head);
+    rlvc_stream_u32(s, &replay->count);
+    rlvc_stream_u32(s, &replay->stored);
+    rlvc_stream_u32(s, &replay->frozen);
+    rlvc_stream_u8(s, &replay->open);
+    if (replay->head >= replay->slots || replay->count > replay->slots)
+        return 0;
+    for (uint32_t position = 0; position < replay->count; position++)
+        pass_slot(s, replay, rlvc_replay_slot(replay, position));
+    return 1;
+}
+
+static int is_number(float x) {
+    return x - x == 0.0f;
+}
+
+static int split_is_sound(const rlvc_agent *agent, const rlvc_split *about, uint32_t j) {
+    return about->class_id <= j && about->step <= agent->step &&
+           about->action <= agent->config.actions + 1u && is_number(about->log_tests) &&
+           is_number(about->score) && is_number(about->log_p);
+}
+
+/* The tree is loaded by growing it again, so that its nodes need not be passed, nor believed. */
+static int pass_tree(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_tree *tree = &agent->tree;
+    uint32_t classes = tree->classes;
+    rlvc_stream_u32(s, &classes);
+    if (classes < 1u || classes > tree->classes_max)
+        return 0;
+    for (uint32_t j = 0; j + 1u < classes; j++) {
+        int loading = s->mode == RLVC_STREAM_LOAD;
+        rlvc_split made = {0, 0, 0, 0, 0.0f, 0.0f, 0.0f};
+        rlvc_split *about = loading ? &made : &tree->split[j].about;
+        unsigned char *feature = loading ? agent->space.alone : rlvc_tree_feature(tree, j);
+        rlvc_stream_u32(s, &about->class_id);
+        rlvc_stream_u32(s, &about->step);
+        rlvc_stream_u32(s, &about->action);
+        rlvc_stream_u32(s, &about->samples);
+        rlvc_stream_float(s, &about->log_tests);
+        rlvc_stream_float(s, &about->score);
+        rlvc_stream_float(s, &about->log_p);
+        rlvc_stream_bytes(s, feature, tree->feature_bytes);
+        if (loading && !split_is_sound(agent, about, j))
+            return 0;
+        if (loading)
+            rlvc_tree_grow(tree, about, feature);
+    }
+    return 1;
+}
+
+static void pass_values(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_values *values = &agent->values;
+    for (uint32_t c = 0; c < agent->tree.classes; c++) {
+        rlvc_stream_float(s, &values->value[c]);
+        rlvc_stream_u8(s, &values->policy[c]);
+        rlvc_stream_u8(s, &values->trial[c]);
+        rlvc_stream_u16(s, &agent->pending[c]);
+        for (uint32_t a = 0; a < values->actions; a++) {
+            size_t pair = rlvc_values_pair(values, c, a);
+            rlvc_stream_float(s, &values->q[pair]);
+            rlvc_stream_float(s, &values->reward[pair]);
+            rlvc_stream_u32(s, &values->tried[pair]);
+        }
+    }
+}
+
+static void pass_explorer(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_explorer *explorer = &agent->explorer;
+    rlvc_stream_u8(s, &explorer->least);
+    rlvc_stream_u8(s, &explorer->last);
+    rlvc_stream_bytes(s, explorer->lead, agent->tree.classes);
+    rlvc_stream_bytes(s, explorer->seen, agent->tree.classes * agent->config.actions);
+}
+
+/* Between two steps a learner has nothing to tell: zeros. */
+static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_mark *mark) {
+    uint8_t phase = learner->phase, searching = phase ? learner->searching : 0;
+    uint32_t *field[] = {&learner->end,    &learner->at,     &learner->node, &learner->classes,
+                         &learner->rounds, &learner->splits, &learner->made};
+    rlvc_stream_u8(s, &phase);
+    rlvc_stream_u8(s, &searching);
+    for (uint32_t i = 0; i < sizeof field / sizeof field[0]; i++) {
+        uint32_t number = phase ? *field[i] : 0;
+        rlvc_stream_u32(s, &number);
+        if (s->mode == RLVC_STREAM_LOAD)
+            *field[i] = number;
+    }
+    for (uint32_t i = 0; i < RLVC_MARK_WORDS; i++)
+        rlvc_stream_u32(s, &mark->word[i]);
+    if (s->mode == RLVC_STREAM_LOAD) {
+        learner->phase = phase;
+        learner->searching = searching;
+    }
+}
+
+/* All that comes after the identity. */
+static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_mark *mark) {
+    pass_counters(s, agent);
+    if (!pass_replay(s, &agent->replay) || !pass_tree(s, agent))
+        return 0;
+    pass_values(s, agent);
+    pass_explorer(s, agent);
+    pass_learner(s, &agent->learner, mark);
+    return 1;
+}
+
+static void pass_agent(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_mark mark;
+    rlvc_resume_mark(agent, &mark);
+    pass_identity(s, &agent->domain.percept_bytes, &agent->domain.feature_bytes, &agent->config);
+    (void)pass_state(s, agent, &mark);
+}
+
+/* ------------------------------------------------------------------ sizes */
+
+/* The most that a snapshot can take. 64 bits hold it for every config. */
+static uint64_t largest(const rlvc_config *config, const rlvc_domain *domain) {
+    uint64_t classes = config->classes, unit = RLVC_STORE_UNIT;
+    uint64_t size = RLVC_SNAPSHOT_FIXED_BYTES;
+    size += ((uint64_t)config->capacity + 1u) * (domain->percept_bytes + 8u);
+    size += (classes - 1u) * (domain->feature_bytes + 28u);
+    size += classes * 9u + classes * config->actions * 13u;
+    return (size + unit - 1u) / unit * unit;
+}
+
+rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
+                               uint32_t *bytes) {
+    if (!bytes)
+        return RLVC_E_NULL;
+    *bytes = 0;
+    rlvc_status status = rlvc_config_status(config, domain);
+    if (status != RLVC_OK)
+        return status;
+    uint64_t size = largest(config, domain);
+    if (size > RLVC_SLOT_BYTES_MAX)
+        return RLVC_E_MEMORY;
+    *bytes = (uint32_t)size;
+    return RLVC_OK;
+}
+
+/* @param least bytes that a slot must hold */
+static rlvc_status check_store(const rlvc_store *store, uint64_t least) {
+    if (!store || !store->read || !store->write)
+        return RLVC_E_NULL;
+    return store->slot_bytes >= least && store->slot_bytes <= RLVC_SLOT_BYTES_MAX &&
+                   store->slot_bytes % RLVC_STORE_UNIT == 0
+               ? RLVC_OK
+               : RLVC_E_RANGE;
+}
+
+/* ------------------------------------------------------------------ saving */
+
+static rlvc_status save(rlvc_agent *agent, const rlvc_store *store) {
+    rlvc_slot newest = {1, 0, 0, 0};
+    rlvc_status status = rlvc_slots_newest(store, &newest);
+    if (status == RLVC_E_STORE)
+        return status;
+    if (status != RLVC_OK) { /* nothing to lose */
+        newest.index = 1;
+        newest.sequence = 0;
+    }
+    rlvc_stream stream;
+    rlvc_stream_count(&stream);
+    pass_agent(&stream, agent);
+    rlvc_slot slot = {1u - newest.index, RLVC_SNAPSHOT_VERSION, newest.sequence + 1u,
+                      (uint32_t)rlvc_stream_size(&stream)};
+    rlvc_stream_save(&stream, store, &slot);
+    pass_agent(&stream, agent);
+    return rlvc_stream_end(&stream);
+}
+
+rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store) {
+    if (!agent)
+        return RLVC_E_NULL;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    rlvc_status status = check_store(store, largest(&agent->config, &agent->domain));
+    if (status != RLVC_OK)
+        return status;
+    agent->busy = 1;
+    status = save(agent, store);
+    agent->busy = 0;
+    return status;
+}
+
+/* ------------------------------------------------------------------ loading */
+
+static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
+                               rlvc_snapshot_info *info) {
+    rlvc_slot slot;
+    rlvc_status status = rlvc_slots_newest(store, &slot);
+    if (status != RLVC_OK)
+        return status;
+    info->version = slot.version;
+    info->sequence = slot.sequence;
+    info->slot = slot.index;
+    info->bytes = slot.bytes;
+    if (slot.version != RLVC_SNAPSHOT_VERSION)
+        return RLVC_E_VERSION;
+    rlvc_stream_load(stream, store, &slot);
+    pass_identity(stream, &info->percept_bytes, &info->feature_bytes, &info->config);
+    return stream->status;
+}
+
+static int same_float(float a, float b) {
+    return a <= b && a >= b;
+}
+
+static int same_config(const rlvc_config *a, const rlvc_config *b) {
+    return a->actions == b->actions && a->capacity == b->capacity && a->classes == b->classes &&
+           a->features_at_once == b->features_at_once && a->min_samples == b->min_samples &&
+           a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
+           a->score == b->score && a->solver == b->solver && a->untried == b->untried &&
+           a->continuing == b->continuing && a->successors == b->successors &&
+           a->explore == b->explore && a->gate == b->gate &&
+           same_float(a->discount, b->discount) &&
+           same_float(a->epsilon, b->epsilon) && same_float(a->alpha, b->alpha) &&
+           same_float(a->alpha_known, b->alpha_known) &&
+           same_float(a->tolerance, b->tolerance) &&
+           same_float(a->learning_rate, b->learning_rate) &&
+           same_float(a->optimistic_value, b->optimistic_value);
+}
+
+/* Does everything that was loaded hold together? */
+static int is_sound(const rlvc_agent *agent) {
+    const rlvc_replay *replay = &agent->replay;
+    for (uint32_t position = 0; position < replay->count; position++) {
+        uint8_t flags = replay->flags[rlvc_replay_slot(replay, position)];
+        if (flags > (RLVC_SLOT_STORED | RLVC_SLOT_EXPLOITED | RLVC_SLOT_TERMINATED) ||
+            (flags != 0 && !(flags & RLVC_SLOT_STORED)))
+            return 0;
+    }
+    for (uint32_t c = 0; c < agent->tree.classes; c++) {
+        for (uint32_t a = 0; a < agent->config.actions; a++) {
+            if (!is_number(agent->values.reward[rlvc_values_pair(&agent->values, c, a)]))
+                return 0;
+        }
+    }
+    return agent->run <= agent->step && agent->last_split <= agent->step &&
+           agent->sweeps <= agent->config.max_sweeps && is_number(agent->residual) &&
+           agent->interactions >= replay->stored && rlvc_agent_check(agent) == RLVC_OK &&
+           rlvc_resume_check(agent);
+}
+
+/* Fills a new agent. */
+static rlvc_status load(rlvc_stream *stream, rlvc_agent *agent) {
+    rlvc_mark mark;
+    int fits = pass_state(stream, agent, &mark);
+    if (stream->status != RLVC_OK)
+        return stream->status;
+    if (!fits)
+        return RLVC_E_DAMAGED;
+    rlvc_status status = rlvc_stream_end(stream);
+    if (status != RLVC_OK)
+        return status;
+    if (!is_sound(agent))
+        return RLVC_E_DAMAGED;
+    agent->busy = 1;
+    status = rlvc_resume(agent, &mark);
+    agent->busy = 0;
+    return status;
+}
+
+rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
+                      size_t bytes, const rlvc_store *store, rlvc_agent **agent) {
+    if (!agent)
+        return RLVC_E_NULL;
+    *agent = NULL;
+    uint32_t least = 0;
+    rlvc_status status = rlvc_snapshot_size(config, domain, &least);
+    if (status == RLVC_OK)
+        status = memory ? check_store(store, least) : RLVC_E_NULL;
+    rlvc_stream stream;
+    rlvc_snapshot_info info;
+    if (status == RLVC_OK)
+        status = open_newest(store, &stream, &info);
+    if (status != RLVC_OK)
+        return status;
+    if (info.percept_bytes != domain->percept_bytes ||
+        info.feature_bytes != domain->feature_bytes || !same_config(&info.config, config))
+        return RLVC_E_MISMATCH;
+    rlvc_agent *made;
+    status = rlvc_agent_init(config, domain, memory, bytes, &made);
+    if (status != RLVC_OK)
+        return status;
+    status = load(&stream, made);
+    if (status == RLVC_OK)
+        *agent = made;
+    return status;
+}
+
+rlvc_status rlvc_snapshot_peek(const rlvc_store *store, rlvc_snapshot_info *info) {
+    if (!info)
+        return RLVC_E_NULL;
+    rlvc_status status = check_store(store, RLVC_STORE_UNIT);
+    rlvc_stream stream;
+    if (status == RLVC_OK)
+        status = open_newest(store, &stream, info);
+    return status;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/* The decision tree: see tree.h for its layout. */
+#include "tree.h"
+
+#include "../base/assert.h"
+#include <string.h>
+
+void rlvc_tree_carve(rlvc_tree *tree, rlvc_arena *arena, uint32_t classes_max,
+                     uint32_t feature_bytes) {
+    tree->node = rlvc_arena_carve(arena, 2u * (uint64_t)classes_max - 1u, sizeof *tree->node);
+    tree->split = rlvc_arena_carve(arena, (uint64_t)classes_max - 1u, sizeof *tree->split);
+    tree->feature = rlvc_arena_carve(arena, (uint64_t)classes_max - 1u, feature_bytes);
+    tree->classes_max = classes_max;
+    tree->feature_bytes = feature_bytes;
+}
+
+void rlvc_tree_clear(rlvc_tree *tree) {
+    tree->node[0] = RLVC_LEAF | 0u;
+    tree->classes = 1;
+    tree->depth = 0;
+}
+
+rlvc_status rlvc_tree_descend(const rlvc_tree *tree, const rlvc_domain *domain, const void *percept,
+                              uint32_t *node) {
+    uint8_t present = 0;
+    const void *feature = rlvc_tree_feature(tree, rlvc_tree_split_of(tree, *node));
+    if (domain->exhibits(domain->ctx, percept, feature, &present) != 0)
+        return RLVC_E_CALLBACK;
+    *node = tree->node[*node] + (present != 0 ? 1u : 0u);
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain, const void *percept,
+                               uint32_t *class_id) {
+    uint32_t node = 0;
+    while (!rlvc_tree_is_leaf(tree, node)) {
+        rlvc_status status = rlvc_tree_descend(tree, domain, percept, &node);
+        if (status != RLVC_OK)
+            return status;
+    }
+    *class_id = rlvc_tree_class(tree, node);
+    return RLVC_OK;
+}
+
+static uint32_t leaf_of(const rlvc_tree *tree, uint32_t class_id) {
+    uint32_t node = 2u * class_id;
+    while (!rlvc_tree_is_leaf(tree, node))
+        node = tree->node[node];
+    return node;
+}
+
+void rlvc_tree_grow(rlvc_tree *tree, const rlvc_split *about, const void *feature) {
+    RLVC_ASSERT(tree->classes < tree->classes_max && about->class_id < tree->classes);
+    uint32_t j = tree->classes - 1u;
+    uint32_t leaf = leaf_of(tree, about->class_id);
+    tree->split[j].node = leaf;
+    tree->split[j].about = *about;
+    memcpy(rlvc_tree_feature(tree, j), feature, tree->feature_bytes);
+    tree->node[2u * j + 1u] = RLVC_LEAF | about->class_id;
+    tree->node[2u * j + 2u] = RLVC_LEAF | (j + 1u);
+    tree->node[leaf] = 2u * j + 1u;
+    tree->classes++;
+    uint32_t depth = rlvc_tree_depth(tree, 2u * j + 1u);
+    if (depth > tree->depth)
+        tree->depth = depth;
+}
+
+uint32_t rlvc_tree_walk(const rlvc_tree *tree, uint32_t node) {
+    if (!rlvc_tree_is_leaf(tree, node))
+        return tree->node[node];
+    /* Up past the present children, which are the even ones; then over to the present sibling. */
+    while (node != 0 && node % 2u == 0)
+        node = rlvc_tree_parent(tree, node);
+    return node == 0 ? 0 : node + 1u;
+}
+
+uint32_t rlvc_tree_depth(const rlvc_tree *tree, uint32_t node) {
+    uint32_t depth = 0;
+    for (; node != 0; node = rlvc_tree_parent(tree, node))
+        depth++;
+    return depth;
+}
+
+/* Was split j made of an older node, which leads to the two that it made? */
+static int split_is_sound(const rlvc_tree *tree, uint32_t j) {
+    const rlvc_tree_split *split = &tree->split[j];
+    return split->node <= 2u * j && tree->node[split->node] == 2u * j + 1u &&
+           split->about.class_id <= j;
+}
+
+/* Is a node a leaf of some class, or the node of some split? With sound splits every way down the tree
+ * then leads to younger nodes, and ends. */
+static int node_is_sound(const rlvc_tree *tree, uint32_t node) {
+    if (rlvc_tree_is_leaf(tree, node))
+        return rlvc_tree_class(tree, node) < tree->classes;
+    uint32_t split = rlvc_tree_split_of(tree, node);
+    return split < tree->classes - 1u && tree->split[split].node == node;
+}
+
+/* Does the chain of a split's class lead to its node? */
+static int history_is_sound(const rlvc_tree *tree, uint32_t j) {
+    const rlvc_tree_split *split = &tree->split[j];
+    uint32_t node = 2u * split->about.class_id;
+    while (node < split->node && !rlvc_tree_is_leaf(tree, node))
+        node = tree->node[node];
+    return node == split->node;
+}
+
+/* In an order in which each loop may rely on those before it, so that no damage leads it astray. */
+int rlvc_tree_check(const rlvc_tree *tree) {
+    if (tree->classes < 1 || tree->classes > tree->classes_max)
+        return 0;
+    uint32_t nodes = 2u * tree->classes - 1u, splits = tree->classes - 1u, depth = 0;
+    for (uint32_t j = 0; j < splits; j++) {
+        if (!split_is_sound(tree, j))
+            return 0;
+    }
+    for (uint32_t node = 0; node < nodes; node++) {
+        if (!node_is_sound(tree, node))
+            return 0;
+    }
+    for (uint32_t j = 0; j < splits; j++) {
+        if (!history_is_sound(tree, j))
+            return 0;
+    }
+    for (uint32_t node = 0; node < nodes; node++) {
+        uint32_t above = rlvc_tree_depth(tree, node);
+        depth = above > depth ? above : depth;
+        if (rlvc_tree_is_leaf(tree, node) && leaf_of(tree, rlvc_tree_class(tree, node)) != node)
+            return 0;
+    }
+    return depth == tree->depth;
+}
