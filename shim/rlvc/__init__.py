@@ -6,18 +6,38 @@ said to be in a section is in that of "Interactive selection of visual features 
 learning".
 """
 
+# The rooms of the package, from the ground up. A room is a folder or a file; it imports only rooms
+# above it in this list (tests/shim/test_rooms.py).
+#
+#     errors     one exception for each cause
+#     _native    the C library: loaded, checked, declared
+#     domains    percepts and features (section 5)
+#     agent      the agent, its configuration, snapshots, policies
+#     learning   the loop around a Gymnasium environment (section 4.2.1)
+#     logs       learning from recorded interactions
+#     vision     pictures to percepts (sections 3 and 6.2)
+#     objects    the pictures of the Tiled Gridworld
+#     envs       the paper's mazes as Gymnasium environments
+#     report     a run as JSON
+#     plot       figures
+#     bench      what the package's calls cost
 from ._version import __version__
-from .agent import Agent
-from .batch import Batch
-from .config import Config
-from .domain import Bits, Descriptors, Domain, Thresholds
-from .encode import Encoder
+from .agent.agent import Agent
+from .agent.batch import Batch
+from .agent.config import Config
+from .agent.fewest import Fewest, fewest
+from .agent.policy import Compaction, Policy
+from .agent.results import CHOICE, Choice, Prediction, Progress, Split, Statistics
+from .domains.bits import Bits
+from .domains.descriptors import Descriptors
+from .domains.domain import Domain
+from .domains.thresholds import Thresholds
 from .errors import Error
-from .fewest import Fewest, fewest
-from .learning import Record, Run, learn
+from .learning import encode, trials
+from .learning.encode import Encoder
+from .learning.learn import learn
+from .learning.run import Record, Run
 from .logs import learn_from
-from .policy import Compaction, Policy
-from .results import CHOICE, Choice, Prediction, Progress, Split, Statistics
 
 __all__ = [
     "CHOICE",
@@ -41,7 +61,9 @@ __all__ = [
     "Statistics",
     "Thresholds",
     "__version__",
+    "encode",
     "fewest",
     "learn",
     "learn_from",
+    "trials",
 ]

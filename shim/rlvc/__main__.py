@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__
-from .agent import Agent
-from .config import CHOICES
-from .encode import explain
+from .agent.agent import Agent
+from .agent.config import CHOICES
+from .agent.snapshot import read_file
 from .errors import Error
-from .learning import Run, learn
+from .learning.encode import explain
+from .learning.learn import learn
+from .learning.run import Run
 from .logs import learn_from
-from .snapshot import read_file
 
 _PICTURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
 _CURVES = ("discount", "epsilon", "alpha", "tolerance")

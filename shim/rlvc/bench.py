@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import _lib
-from .agent import Agent
-from .results import CHOICE
+from . import _native
+from .agent.agent import Agent
+from .agent.results import CHOICE
 
 PERCEPTS = 1_000_000
 _STEPS = 50_000
@@ -71,7 +71,7 @@ def step_times(agent: Agent) -> tuple[float, float]:
     percept = np.array([1, 2, 3], np.uint8)
     agent.begin(percept)
     act, observe = agent.act, agent.observe
-    empty_act, empty_observe = _lib.call.rlvc_shim_empty_act, _lib.call.rlvc_shim_empty_observe
+    empty_act, empty_observe = _native.call.rlvc_shim_empty_act, _native.call.rlvc_shim_empty_observe
     handle, choice, record = agent._handle, agent._choice, percept.tobytes()
     reference = ctypes.byref(choice)
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
+from . import _native
 from .errors import PictureError, RangeError
 
 
@@ -99,7 +99,7 @@ def find(
     RangeError
         An angle or ``wanted`` is out of range.
     """
-    library = _lib.load_seeing("rlvc-objects", _lib.OBJECTS)
+    library = _native.load_seeing("rlvc-objects", _native.OBJECTS)
     chosen = list(dict.fromkeys(int(angle) for angle in angles))
     if not chosen or not all(0 <= angle < 360 for angle in chosen):
         raise RangeError(f"angles: {list(angles)} are not in [0, 360)")

@@ -22,7 +22,7 @@ import numpy as np
 from .errors import RunError
 
 if TYPE_CHECKING:
-    from .learning import Run
+    from .learning.run import Run
 
 VERSION = 1
 _DRAWS = 8  # of a cell's distractors, which must all agree

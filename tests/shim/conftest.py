@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 
 import hypothesis
+import hypothesis.configuration
 import numpy as np
 import pytest
 
@@ -12,6 +13,7 @@ import rlvc
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
+hypothesis.configuration.set_hypothesis_home_dir(ROOT / "build/hypothesis")
 hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, database=None)
 hypothesis.settings.load_profile("fixed")
 

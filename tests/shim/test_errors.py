@@ -493,7 +493,7 @@ def test_ctrl_c_between_slices(walk, monkeypatch):
                 raise KeyboardInterrupt
         return original(name, *arguments)
 
-    monkeypatch.setattr("rlvc.agent._SLICE", 64)
+    monkeypatch.setattr("rlvc.agent.agent._SLICE", 64)
     monkeypatch.setattr(agent, "_long", interrupted)
     with pytest.raises(KeyboardInterrupt):
         agent.learn()

@@ -10,7 +10,8 @@ import sys
 import pytest
 from conftest import ROOT
 
-from rlvc import _lib, config, errors
+from rlvc import _native, errors
+from rlvc.agent import config
 
 HEADERS = [*(ROOT / "core/include/rlvc").glob("*.h"), ROOT / "shim/native/shim.h"]
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
@@ -18,8 +19,8 @@ FUNCTION = re.compile(r"^RLVC_API\s+([\w\s*]+?[\s*])(rlvc_\w+)\(([^;]*)\);", re.
 SCALARS = {
     "uint8_t": ctypes.c_uint8, "uint32_t": ctypes.c_uint32, "size_t": ctypes.c_size_t,
     "float": ctypes.c_float, "int": ctypes.c_int, "rlvc_status": ctypes.c_int,
-    "rlvc_choice": _lib.Choice, "rlvc_write": _lib.WRITE, "void": None, "int32_t": ctypes.c_int32,
-    "rlvc_vision_status": ctypes.c_int, "rlvc_threshold": _lib.Threshold,
+    "rlvc_choice": _native.Choice, "rlvc_write": _native.WRITE, "void": None, "int32_t": ctypes.c_int32,
+    "rlvc_vision_status": ctypes.c_int, "rlvc_threshold": _native.Threshold,
 }  # fmt: skip
 
 
@@ -41,9 +42,9 @@ def kind(text):
 
 
 TABLES = {
-    "core": (HEADERS, _lib.FUNCTIONS),
-    "vision": ([ROOT / "vision/include/rlvc/vision.h"], _lib.VISION),
-    "objects": ([ROOT / "shim/native/objects.h"], _lib.OBJECTS),
+    "core": (HEADERS, _native.FUNCTIONS),
+    "vision": ([ROOT / "vision/include/rlvc/vision.h"], _native.VISION),
+    "objects": ([ROOT / "shim/native/objects.h"], _native.OBJECTS),
 }
 
 
@@ -66,8 +67,8 @@ def test_every_function_is_declared_as_in_its_header(table):
 
 
 def test_every_function_has_its_types_set():
-    for library in (_lib.call, _lib.long_call):
-        for name, (_, arguments) in _lib.FUNCTIONS.items():
+    for library in (_native.call, _native.long_call):
+        for name, (_, arguments) in _native.FUNCTIONS.items():
             assert getattr(library, name).argtypes == arguments
 
 
@@ -79,10 +80,10 @@ def test_constants():
                  "NAME_BYTES", "BITS_MAX", "ALIGNMENT"):  # fmt: skip
         match = re.search(rf"\bRLVC_{name} (?:= )?(-?\d+)", text)
         assert match, name
-        assert int(match[1]) == getattr(_lib, name), name
+        assert int(match[1]) == getattr(_native, name), name
     assert "#define RLVC_SHIM_RECORDS_PERCEPT (1u << 20)" in text
-    assert _lib.RECORDS_PERCEPT == 1 << 20
-    assert _lib.RECORDS_ROOM == _lib.RECORDS_PERCEPT + 13
+    assert _native.RECORDS_PERCEPT == 1 << 20
+    assert _native.RECORDS_ROOM == _native.RECORDS_PERCEPT + 13
     for field, names in config.CHOICES.items():
         for value, name in enumerate(names):
             assert re.search(rf"#define RLVC_{field}_{name} {value}u".upper().replace("DEFINE", "define")
@@ -90,34 +91,34 @@ def test_constants():
 
 
 def test_defaults_of_the_config_are_the_librarys():
-    domain, native = _lib.Domain(), _lib.Config()
-    _lib.call.rlvc_bits_domain(100, ctypes.byref(domain))
-    _lib.call.rlvc_config_default(ctypes.byref(native), ctypes.byref(domain), 3)
+    domain, native = _native.Domain(), _native.Config()
+    _native.call.rlvc_bits_domain(100, ctypes.byref(domain))
+    _native.call.rlvc_config_default(ctypes.byref(native), ctypes.byref(domain), 3)
     assert bytes(config.to_native(config.Config(3), domain)) == bytes(native)
 
 
 def test_statuses_have_exceptions():
     text = (ROOT / "core/include/rlvc/status.h").read_text(encoding="utf-8")
     for name, value in re.findall(r"RLVC_(E_\w+) = (-\d+)", text):
-        assert getattr(_lib, name, None) == int(value), name
+        assert getattr(_native, name, None) == int(value), name
 
 
 @pytest.mark.parametrize("version", ["0.0.9", "9.9.9", ""])
 def test_another_version_is_refused(version):
     with pytest.raises(errors.LibraryError, match="version"):
-        _lib.check_version(version, _lib.PATH)
+        _native.check_version(version, _native.PATH)
 
 
 def test_another_layout_is_refused():
-    entries = _lib._entries(_lib.call)
-    _lib.check_layout(entries, _lib.PATH)
+    entries = _native.layout_of(_native.call)
+    _native.check_layout(entries, _native.PATH)
     for key in entries:
         with pytest.raises(errors.LibraryError, match=re.escape(key)):
-            _lib.check_layout({**entries, key: entries[key] + 1}, _lib.PATH)
+            _native.check_layout({**entries, key: entries[key] + 1}, _native.PATH)
         with pytest.raises(errors.LibraryError, match=re.escape(key)):
-            _lib.check_layout({k: v for k, v in entries.items() if k != key}, _lib.PATH)
+            _native.check_layout({k: v for k, v in entries.items() if k != key}, _native.PATH)
     with pytest.raises(errors.LibraryError, match=r"rlvc_config\.more"):
-        _lib.check_layout({**entries, "rlvc_config.more": 1}, _lib.PATH)
+        _native.check_layout({**entries, "rlvc_config.more": 1}, _native.PATH)
 
 
 KINDS = """
@@ -139,7 +140,7 @@ def test_fields_are_of_the_types_of_c(tmp_path):
     kinds = {"f": "float", **dict.fromkeys("BHIL", "unsigned"), **dict.fromkeys("il", "signed")}
     fields = {
         (name, field): (kinds.get(getattr(kind, "_type_", None), "other"), ctypes.sizeof(kind))
-        for name, struct in _lib.STRUCTS.items()
+        for name, struct in _native.STRUCTS.items()
         for field, kind in struct._fields_
     }
     lines = [KINDS, "int main(void) {", *(f"SHOW({name}, {f})" for name, f in fields), "}\n"]
@@ -172,7 +173,7 @@ def said_by_vision(folder):
     """What ``import rlvc.vision`` says where the libraries are those of a folder."""
     done = subprocess.run(
         [sys.executable, "-c", "import rlvc\nimport rlvc.vision"], capture_output=True, text=True,
-        env={"RLVC_PYTHON_LIBRARY": str(folder / _lib.PATH.name), "PYTHONPATH": ":".join(sys.path)},
+        env={"RLVC_PYTHON_LIBRARY": str(folder / _native.PATH.name), "PYTHONPATH": ":".join(sys.path)},
     )  # fmt: skip
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1].startswith("ImportError: ")
@@ -181,7 +182,7 @@ def said_by_vision(folder):
 
 def test_vision_says_what_to_install(tmp_path):
     """Of a package that was made without it, and of one whose OpenCV is gone."""
-    shutil.copy(_lib.PATH, tmp_path)
+    shutil.copy(_native.PATH, tmp_path)
     said = said_by_vision(tmp_path)
     assert "libopencv-dev" in said
     assert "pip install" in said

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rlvc
-from rlvc import _lib, errors, logs
+from rlvc import _native, errors, logs
 
 
 def episodes(count=60, seed=1):
@@ -258,7 +258,7 @@ class Controller:
         self.open()
 
     def call(self, name, *arguments):
-        assert getattr(_lib.call, name)(self.writer, *arguments) == 0
+        assert getattr(_native.call, name)(self.writer, *arguments) == 0
         self.ends.append(len(self.text))
 
     def open(self):
@@ -268,7 +268,7 @@ class Controller:
         self.call("rlvc_log_begin", bytes(percept))
 
     def observe(self, action, reward, percept, end, exploited=0):
-        choice = _lib.Choice(action, exploited)
+        choice = _native.Choice(action, exploited)
         self.call("rlvc_log_observe", choice, reward, bytes(percept) if percept else None, end)
 
     def walk(self, count=60, seed=1):

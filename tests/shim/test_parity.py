@@ -9,7 +9,7 @@ import numpy as np
 
 import rlvc
 from rlvc import errors
-from rlvc.config import CHOICES
+from rlvc.agent.config import CHOICES
 
 STATUS = {
     errors.PerceptError: -1, errors.OrderError: -4, errors.RangeError: -5, errors.RewardError: -6,

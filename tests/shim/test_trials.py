@@ -10,7 +10,7 @@ from gymnasium import spaces
 
 import rlvc
 from rlvc import errors
-from rlvc.trials import SmallPolicy, Trials, shrink
+from rlvc.learning import SmallPolicy, Trials, shrink
 
 
 def plane(count=400, seed=1):

@@ -17,7 +17,7 @@ from rlvc import errors
 if reason := without_vision():
     pytest.skip(reason, allow_module_level=True)
 
-from rlvc import _lib, objects, vision
+from rlvc import _native, objects, vision
 
 U8 = np.uint8
 
@@ -44,7 +44,7 @@ def extractor(metric):
 def seer(tmp_path_factory):
     """The C program that sees one picture by the library that the package uses."""
     program = tmp_path_factory.mktemp("seer") / "seer"
-    library = _lib.PATH.with_name("librlvc-vision.so")
+    library = _native.PATH.with_name("librlvc-vision.so")
     subprocess.run(
         ["gcc", "-std=c99", f"-I{ROOT / 'core/include'}", f"-I{ROOT / 'vision/include'}", "-o", program,
          ROOT / "tests/shim/seer.c", library, f"-Wl,-rpath,{library.parent}"],
@@ -74,9 +74,9 @@ def test_parity_with_c(seer, descriptor, order, tmp_path):
 
 def test_defaults_are_the_librarys():
     for number, name in enumerate(vision.DESCRIPTORS):
-        assert vision._library.rlvc_descriptor_name(number).decode() == name
-        native = _lib.VisionConfig()
-        assert vision._library.rlvc_vision_config_default(number, ctypes.byref(native)) == 0
+        assert vision.library.library.rlvc_descriptor_name(number).decode() == name
+        native = _native.VisionConfig()
+        assert vision.library.library.rlvc_vision_config_default(number, ctypes.byref(native)) == 0
         assert bytes(vision.VisionConfig(name).native()) == bytes(native)
         assert vision.VisionConfig.of(native) == vision.VisionConfig(name)
 

@@ -13,7 +13,7 @@ import tempfile
 
 import numpy as np
 
-from rlvc import _lib, bench
+from rlvc import _native, bench
 
 LOOP = r"""
 #include <stddef.h>
@@ -34,7 +34,7 @@ def c_loop(folder):
     """The loop over rlvc_predict in C, which calls that very library."""
     subprocess.run(
         ["gcc", "-O3", "-shared", "-fPIC", "-o", f"{folder}/loop.so", "-x", "c", "-", "-x", "none",
-         str(_lib.PATH)],
+         str(_native.PATH)],
         input=LOOP, text=True, check=True,
     )  # fmt: skip
     loop = ctypes.CDLL(f"{folder}/loop.so").loop

@@ -15,9 +15,9 @@ from matplotlib.patches import Circle
 
 from .. import objects as _objects
 from .. import report as _report
-from ..agent import Agent
+from ..agent.agent import Agent
 from ..errors import RunError
-from ..learning import Run
+from ..learning.run import Run
 
 Source: TypeAlias = "dict[str, Any] | str | Path | Run | Agent"
 

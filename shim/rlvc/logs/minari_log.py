@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import LogError
-from ..learning import ends_of
+from ..learning.interact import ends_of
 from .log import Log, checked
 
 

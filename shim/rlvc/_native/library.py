@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from ._version import __version__
-from .errors import LibraryError
+from .._version import __version__
+from ..errors import LibraryError
 
 # ------------------------------------------------------------------ structs
 
@@ -648,7 +648,7 @@ def check_layout(entries: dict[str, int], path: Path) -> None:
             raise LibraryError(f"{path}: {key} is not known here")
 
 
-def _entries(library: Any) -> dict[str, int]:
+def layout_of(library: Any) -> dict[str, int]:
     table = library.rlvc_shim_layout()
     entries = {}
     index = 0
@@ -661,7 +661,7 @@ def _entries(library: Any) -> dict[str, int]:
 PATH = library_path()
 long_call: Any = _load(PATH, c.CDLL)
 check_version(long_call.rlvc_version().decode(), PATH)
-check_layout(_entries(long_call), PATH)
+check_layout(layout_of(long_call), PATH)
 call: Any = _load(PATH, c.PyDLL)
 
 

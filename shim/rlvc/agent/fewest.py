@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
-from .errors import ArrayError, BlockError, RangeError
+from .. import _native
+from ..errors import ArrayError, BlockError, RangeError
 
 _byref = ctypes.byref
 
@@ -92,17 +92,17 @@ def fewest(
         if not isinstance(number, int) or not 1 <= number <= most:
             raise RangeError(f"{name}: {number!r} is not in [1, {most}]")
     words, sets = _packed(rows), _packed(allowed)
-    task = _lib.FewestTask(words.ctypes.data, sets.ctypes.data, *rows.shape, entries, 0, effort)
-    size, tree = ctypes.c_size_t(), _lib.FewestTree()
-    status = _lib.call.rlvc_fewest_size(_byref(task), _byref(size))
-    if status == _lib.OK:
+    task = _native.FewestTask(words.ctypes.data, sets.ctypes.data, *rows.shape, entries, 0, effort)
+    size, tree = ctypes.c_size_t(), _native.FewestTree()
+    status = _native.call.rlvc_fewest_size(_byref(task), _byref(size))
+    if status == _native.OK:
         try:
             block = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
             raise BlockError(f"no memory for a block of {size.value} bytes") from None
         place = (block.ctypes.data, size.value)
-        status = _lib.long_call.rlvc_fewest(_byref(task), *place, _byref(tree))
-    if status != _lib.OK:
+        status = _native.long_call.rlvc_fewest(_byref(task), *place, _byref(tree))
+    if status != _native.OK:
         raise RangeError(
             "rows and entries are at least 1 and 2, every row allows an action, "
             "and rows alike in every feature a common one"

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import LogError
-from ..learning import ends_of
+from ..learning.interact import ends_of
 from .log import Log, checked
 
 _FIELDS = ("observations", "actions", "rewards", "terminated")

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
-from .domain import Percept
-from .errors import BlockError, ConfigError
+from .. import _native
+from ..domains.domain import Percept
+from ..errors import BlockError, ConfigError
 from .handle import Handle
 
 if TYPE_CHECKING:
     from .agent import Agent
 
-_policy_act = _lib.call.rlvc_policy_act
+_policy_act = _native.call.rlvc_policy_act
 _byref = ctypes.byref
 
 
@@ -84,17 +84,17 @@ class Policy(Handle):
     _print, _export = "rlvc_policy_print", "rlvc_policy_export_c"
 
     def __init__(self, agent: Agent, **changes: Any) -> None:
-        native, size = _lib.PolicyConfig(), ctypes.c_size_t()
-        agent._check(_lib.call.rlvc_policy_default(agent._handle, _byref(native)))
+        native, size = _native.PolicyConfig(), ctypes.c_size_t()
+        agent._check(_native.call.rlvc_policy_default(agent._handle, _byref(native)))
         for field, value in changes.items():
             if value is not None:
                 _set(native, field, value)
-        agent._check(_lib.call.rlvc_policy_size(agent._handle, _byref(native), _byref(size)))
+        agent._check(_native.call.rlvc_policy_size(agent._handle, _byref(native), _byref(size)))
         try:
             block = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
             raise BlockError(f"no memory for a block of {size.value} bytes") from None
-        policy, info = ctypes.c_void_p(), _lib.PolicyInfo()
+        policy, info = ctypes.c_void_p(), _native.PolicyInfo()
         place = (block.ctypes.data, size.value)
         agent._check(
             agent._long("rlvc_policy_make", _byref(native), *place, _byref(policy), _byref(info))
@@ -152,7 +152,7 @@ class Policy(Handle):
         return f"<rlvc.Policy of {self.info.leaves} leaves>"
 
 
-def _set(native: _lib.PolicyConfig, field: str, value: Any) -> None:
+def _set(native: _native.PolicyConfig, field: str, value: Any) -> None:
     """Set a field of the config, which C checks again."""
     try:
         if field != "tolerance" and not 0 <= value < 2**32 * (2**32 if field == "effort" else 1):

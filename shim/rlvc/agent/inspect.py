@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
+from .. import _native
+from ..domains.domain import Percept
+from ..errors import ArrayError
 from .batch import checked
-from .domain import Percept
-from .errors import ArrayError
 from .handle import Handle
 from .results import Prediction, Split, Statistics
 
-_predict = _lib.call.rlvc_predict
+_predict = _native.call.rlvc_predict
 _byref = ctypes.byref
 
 
@@ -99,8 +99,8 @@ class Looking(Handle):
     @property
     def statistics(self) -> Statistics:
         """Numbers about the agent."""
-        native = _lib.Statistics()
-        self._check(_lib.call.rlvc_stats(self._handle, _byref(native)))
+        native = _native.Statistics()
+        self._check(_native.call.rlvc_stats(self._handle, _byref(native)))
         return Statistics(
             *(getattr(native, field.name) for field in dataclasses.fields(Statistics))
         )
@@ -145,11 +145,11 @@ class Looking(Handle):
     @property
     def splits(self) -> list[Split]:
         """The splits of the tree, in the order in which they were made."""
-        native = _lib.Split()
+        native = _native.Split()
         record = ctypes.create_string_buffer(self._domain.feature_bytes)
         splits = []
         for index in range(self.classes - 1):
-            status = _lib.call.rlvc_split_at(self._handle, index, _byref(native), record)
+            status = _native.call.rlvc_split_at(self._handle, index, _byref(native), record)
             self._check(status)
             feature = self._domain.feature(record.raw)
             action = None if native.action == self._config.actions else native.action

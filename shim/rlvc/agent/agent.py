@@ -11,21 +11,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
+from .. import _native
+from ..domains.domain import Domain, Percept
+from ..errors import RangeError, ReenteredError, RewardError, SnapshotError
 from .batch import Batch, native_log
 from .config import Config
-from .domain import Domain, Percept
-from .errors import RangeError, ReenteredError, RewardError, SnapshotError
-from .looking import Looking
+from .inspect import Looking
 from .policy import Policy
 from .results import CHOICE, Choice, Progress
 from .snapshot import MemoryStore, read_file, write_file
 
 _SLICE = 1 << 20  # of learning, between two looks at Ctrl-C: some milliseconds
 
-_begin = _lib.call.rlvc_begin
-_act = _lib.call.rlvc_act
-_observe = _lib.call.rlvc_observe
+_begin = _native.call.rlvc_begin
+_act = _native.call.rlvc_act
+_observe = _native.call.rlvc_observe
 _byref = ctypes.byref
 _new = tuple.__new__
 _NOTHING = object()
@@ -73,7 +73,7 @@ class Agent(Looking):
     def _make(self, *arguments: Any) -> None:
         """Make an agent, and what C reads choices from."""
         super()._make(*arguments)
-        self._choice = _lib.Choice()
+        self._choice = _native.Choice()
         self._choice_reference = _byref(self._choice)
         self._chosen: object = _NOTHING  # the Choice that self._choice says
 
@@ -211,7 +211,7 @@ class Agent(Looking):
         packed = self._domain.pack_many(percepts)
         count = len(packed)
         choices = np.empty(count, CHOICE)
-        native = _lib.Log(packed.ctypes.data, None, choices.ctypes.data)
+        native = _native.Log(packed.ctypes.data, None, choices.ctypes.data)
         native.count, native.bytes = count, self._domain.percept_bytes
         self._loop("rlvc_shim_act", native)
         return choices
@@ -255,7 +255,7 @@ class Agent(Looking):
         native.resume = bool(resume)
         self._loop("rlvc_shim_observe", native)
 
-    def _loop(self, name: str, native: _lib.Log) -> None:
+    def _loop(self, name: str, native: _native.Log) -> None:
         """Call a loop over interactions; its errors say at which one it stopped."""
         done = ctypes.c_size_t()
         status = self._long(name, _byref(native), _byref(done))
@@ -306,12 +306,12 @@ class Agent(Looking):
         What was done before a callback's exception, or before Ctrl-C, stands: the next call goes on
         from there. The interpreter's lock is released.
         """
-        progress = _lib.Progress()
+        progress = _native.Progress()
         work = 0
         while True:
             portion = _SLICE if budget is None else budget
-            if not isinstance(portion, int) or not _lib.BUDGET_MIN <= portion < 2**32:
-                raise RangeError(f"budget: {portion!r} is not in [{_lib.BUDGET_MIN}, 2**32 - 1]")
+            if not isinstance(portion, int) or not _native.BUDGET_MIN <= portion < 2**32:
+                raise RangeError(f"budget: {portion!r} is not in [{_native.BUDGET_MIN}, 2**32 - 1]")
             self._check(self._long("rlvc_learn", portion, _byref(progress)))
             work += progress.work
             if progress.done or budget is not None:

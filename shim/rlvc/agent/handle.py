@@ -11,10 +11,11 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
-from .config import Config, to_native
-from .domain import Bits, Domain, Guard
-from .errors import (
+from .. import _native
+from ..domains.bits import Bits
+from ..domains.callbacks import Guard
+from ..domains.domain import Domain
+from ..errors import (
     BlockError,
     BusyError,
     CallbackError,
@@ -29,22 +30,23 @@ from .errors import (
     SnapshotError,
     StoreError,
 )
+from .config import Config, to_native
 from .snapshot import MemoryStore
 
 _ERRORS: dict[int, type[Error]] = {
-    _lib.E_CONFIG: ConfigError,
-    _lib.E_MEMORY: BlockError,
-    _lib.E_ORDER: OrderError,
-    _lib.E_RANGE: RangeError,
-    _lib.E_REWARD: RewardError,
-    _lib.E_BUSY: BusyError,
-    _lib.E_CALLBACK: CallbackError,
-    _lib.E_REENTERED: ReenteredError,
-    _lib.E_STORE: StoreError,
-    _lib.E_EMPTY: SnapshotError,
-    _lib.E_DAMAGED: SnapshotError,
-    _lib.E_VERSION: SnapshotError,
-    _lib.E_MISMATCH: SnapshotError,
+    _native.E_CONFIG: ConfigError,
+    _native.E_MEMORY: BlockError,
+    _native.E_ORDER: OrderError,
+    _native.E_RANGE: RangeError,
+    _native.E_REWARD: RewardError,
+    _native.E_BUSY: BusyError,
+    _native.E_CALLBACK: CallbackError,
+    _native.E_REENTERED: ReenteredError,
+    _native.E_STORE: StoreError,
+    _native.E_EMPTY: SnapshotError,
+    _native.E_DAMAGED: SnapshotError,
+    _native.E_VERSION: SnapshotError,
+    _native.E_MISMATCH: SnapshotError,
 }
 _byref = ctypes.byref
 _Self = TypeVar("_Self", bound="Handle")
@@ -80,7 +82,7 @@ class Handle:
         self._native_config = to_native(config, self._native_domain)
         references = (_byref(self._native_config), _byref(self._native_domain))
         size = ctypes.c_size_t()
-        self._check(_lib.call.rlvc_agent_size(*references, _byref(size)))
+        self._check(_native.call.rlvc_agent_size(*references, _byref(size)))
         try:
             self._block: npt.NDArray[np.uint64] | None = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
@@ -90,11 +92,11 @@ class Handle:
         agent = ctypes.c_void_p()
         place = (self._block.ctypes.data, size.value)
         if snapshot is None:
-            status = _lib.call.rlvc_agent_init(*references, *place, _byref(agent))
+            status = _native.call.rlvc_agent_init(*references, *place, _byref(agent))
         else:
             store = MemoryStore(self._snapshot_bytes(), snapshot)
             reference = _byref(store.native)
-            status = _lib.long_call.rlvc_load(*references, *place, reference, _byref(agent))
+            status = _native.long_call.rlvc_load(*references, *place, reference, _byref(agent))
         self._check(status)
         # None while a long call is under way, and after close(): C then answers RLVC_E_NULL.
         self._handle: int | None = agent.value
@@ -104,20 +106,20 @@ class Handle:
     # -------------------------------------------------------------- errors
 
     def _check(self, status: int, index: int | None = None) -> None:
-        if status != _lib.OK:
+        if status != _native.OK:
             self._fail(status, index)
 
     def _fail(self, status: int, index: int | None = None) -> None:
         error, self._guard.error = self._guard.error, None
         if error is not None:
             raise error
-        if status == _lib.E_NULL:
+        if status == _native.E_NULL:
             if getattr(self, "_address", 0) is None:
                 raise ClosedError("the agent is closed")
             if self._handle is None:
                 raise ReenteredError("the agent is in a call: of a callback, or of another thread")
             raise PerceptError("a percept is wanted unless the episode is terminated")
-        text = _lib.status_text(status)
+        text = _native.status_text(status)
         if index is not None:
             text = f"interaction {index}: {text}"
         raise _ERRORS.get(status, Error)(text)
@@ -126,10 +128,10 @@ class Handle:
         """Call a function that releases the interpreter's lock; the agent is not to be had meanwhile."""
         handle = self._handle
         if handle is None:
-            self._fail(_lib.E_NULL)
+            self._fail(_native.E_NULL)
         try:
             self._handle = None
-            return int(getattr(_lib.long_call, name)(handle, *arguments))
+            return int(getattr(_native.long_call, name)(handle, *arguments))
         finally:
             self._handle = handle
 
@@ -158,7 +160,7 @@ class Handle:
         RangeError
             There is no such form.
         """
-        forms = {"text": _lib.PRINT_TEXT, "dot": _lib.PRINT_DOT, "json": _lib.PRINT_JSON}
+        forms = {"text": _native.PRINT_TEXT, "dot": _native.PRINT_DOT, "json": _native.PRINT_JSON}
         if form not in forms:
             raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
         parts: list[bytes] = []
@@ -207,7 +209,7 @@ class Handle:
                 return 1
             return 0
 
-        return _lib.WRITE(write)
+        return _native.WRITE(write)
 
     # -------------------------------------------------------------- the end
 
@@ -257,5 +259,5 @@ class Handle:
     def _snapshot_bytes(self) -> int:
         size = ctypes.c_uint32()
         references = (_byref(self._native_config), _byref(self._native_domain))
-        self._check(_lib.call.rlvc_snapshot_size(*references, _byref(size)))
+        self._check(_native.call.rlvc_snapshot_size(*references, _byref(size)))
         return size.value

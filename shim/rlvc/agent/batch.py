@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
-from .domain import Domain
-from .errors import ArrayError, RangeError
+from .. import _native
+from ..domains.domain import Domain
+from ..errors import ArrayError, RangeError
 from .results import CHOICE
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def native_log(
     rewards: npt.NDArray[Any],
     next_percepts: npt.NDArray[Any],
     ends: npt.NDArray[Any],
-) -> _lib.Log:
+) -> _native.Log:
     """Make the C struct of interactions, which keeps its arrays alive.
 
     Parameters
@@ -92,7 +92,7 @@ def native_log(
     checked(ends, "ends", "uint8", (count,))
     arrays = (before, after, choices, rewards, ends)
     pointers = (array.ctypes.data for array in arrays)
-    native = _lib.Log(*pointers, count, domain.percept_bytes, actions)
+    native = _native.Log(*pointers, count, domain.percept_bytes, actions)
     native._keeps = arrays
     return native
 
@@ -168,7 +168,7 @@ class Batch:
         self._done = ctypes.c_size_t()
         self._log, self._stopped = ctypes.byref(self._native), ctypes.byref(self._done)
         if count * domain.percept_bytes <= _QUICK_BYTES:
-            self._act, self._observe = _lib.call.rlvc_shim_act, _lib.call.rlvc_shim_observe
+            self._act, self._observe = _native.call.rlvc_shim_act, _native.call.rlvc_shim_observe
         else:
             self._act = lambda _, *rest: agent._long("rlvc_shim_act", *rest)
             self._observe = lambda _, *rest: agent._long("rlvc_shim_observe", *rest)

@@ -23,9 +23,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _lib
-from .domain import Bits, Domain, Thresholds
-from .errors import PerceptError, SpaceError
+from .. import _native
+from ..domains.bits import Bits
+from ..domains.domain import Domain
+from ..domains.thresholds import Thresholds
+from ..errors import PerceptError, SpaceError
 
 Columns = npt.NDArray[Any]
 
@@ -75,7 +77,7 @@ def _box_part(space: Any, path: tuple[Any, ...]) -> _Part:
         rows = np.asarray(batch, np.float64).reshape(len(batch), -1)
         if np.isnan(rows).any():
             raise PerceptError("an observation has a NaN in it")
-        return rows.clip(-_lib.NUMBER_MAX, _lib.NUMBER_MAX)
+        return rows.clip(-_native.NUMBER_MAX, _native.NUMBER_MAX)
 
     return _Part(path, names, columns, lambda value: np.shape(value) == space.shape)
 
@@ -182,10 +184,10 @@ class Encoder:
         self._parts = _parts(space, ())
         self.names = [name for part in self._parts for name in part.names]
         size, real = len(self.names), _has_reals(space)
-        if size > (_lib.COMPONENTS_MAX if real else _lib.BITS_MAX):
+        if size > (_native.COMPONENTS_MAX if real else _native.BITS_MAX):
             raise SpaceError(
                 f"{space} would need {size} {'components' if real else 'bits'}, and a percept has at "
-                f"most {_lib.BITS_MAX}: "
+                f"most {_native.BITS_MAX}: "
                 "give an encoder of your own, or for pictures an rlvc.vision.Eye"
             )
         self.domain = Thresholds(size, thresholds) if real else Bits(size)

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import _lib
+from .. import _native
+from ..agent.results import CHOICE
 from ..errors import LogError
-from ..results import CHOICE
 from .log import Log
 
 _MAGIC = b"\xa5\x01"  # the mark of a record, and that it is a header
@@ -35,20 +35,20 @@ def is_records(path: str | Path) -> bool:
         return False
 
 
-def _read(content: bytes, records: _lib.Records, path: str | Path) -> None:
-    buffer = ctypes.create_string_buffer(_lib.RECORDS_ROOM)
-    current = ctypes.create_string_buffer(_lib.RECORDS_PERCEPT)
-    status = _lib.long_call.rlvc_shim_records_read(
+def _read(content: bytes, records: _native.Records, path: str | Path) -> None:
+    buffer = ctypes.create_string_buffer(_native.RECORDS_ROOM)
+    current = ctypes.create_string_buffer(_native.RECORDS_PERCEPT)
+    status = _native.long_call.rlvc_shim_records_read(
         content, len(content), buffer, current, ctypes.byref(records)
     )
-    if status != _lib.OK:
+    if status != _native.OK:
         raise LogError(f"{path}: from byte {records.fault_at} on: {_WRONG[status]}")
 
 
 _WRONG = {
-    _lib.E_DAMAGED: "bytes or records are missing, or damaged, and others follow",
-    _lib.E_VERSION: "a header of another version",
-    _lib.E_MISMATCH: "a header of other percepts or actions than the first",
+    _native.E_DAMAGED: "bytes or records are missing, or damaged, and others follow",
+    _native.E_VERSION: "a header of another version",
+    _native.E_MISMATCH: "a header of other percepts or actions than the first",
 }
 
 
@@ -75,7 +75,7 @@ def from_records(path: str | Path) -> Log:
         content = Path(path).read_bytes()
     except OSError as error:
         raise LogError(f"{path}: cannot be read: {error}") from error
-    records = _lib.Records()
+    records = _native.Records()
     _read(content, records, path)
     count, size = records.interactions, records.percept_bytes
     if count == 0:

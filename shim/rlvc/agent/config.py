@@ -8,8 +8,8 @@ import dataclasses
 import math
 from typing import Literal
 
-from . import _lib
-from .errors import ConfigError
+from .. import _native
+from ..errors import ConfigError
 
 Criterion = Literal["returns", "residual"]
 Score = Literal["gain", "gini", "chi2", "ranks"]
@@ -158,7 +158,7 @@ def _native_value(field: str, kind: object, value: object) -> object:
     return whole
 
 
-def to_native(config: Config, domain: _lib.Domain) -> _lib.Config:
+def to_native(config: Config, domain: _native.Domain) -> _native.Config:
     """Make the C struct and check it.
 
     Parameters
@@ -175,16 +175,16 @@ def to_native(config: Config, domain: _lib.Domain) -> _lib.Config:
     ConfigError
         A field is out of range; the text names it.
     """
-    native = _lib.Config()
+    native = _native.Config()
     reference = ctypes.byref(native)
     domain_reference = ctypes.byref(domain)
     actions = _native_value("actions", ctypes.c_uint32, config.actions)
-    _lib.call.rlvc_config_default(reference, domain_reference, actions)
-    for field, kind in _lib.Config._fields_:  # type: ignore[misc]
+    _native.call.rlvc_config_default(reference, domain_reference, actions)
+    for field, kind in _native.Config._fields_:  # type: ignore[misc]
         value = getattr(config, field, None)
         if value is not None and field != "reserved":
             setattr(native, field, _native_value(field, kind, value))
     why = ctypes.c_char_p()
-    if _lib.call.rlvc_config_check(reference, domain_reference, ctypes.byref(why)) != _lib.OK:
+    if _native.call.rlvc_config_check(reference, domain_reference, ctypes.byref(why)) != _native.OK:
         raise ConfigError((why.value or b"a field is out of range").decode())
     return native

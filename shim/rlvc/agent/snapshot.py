@@ -16,10 +16,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import _lib
+from .. import _native
+from ..domains.bits import Bits
+from ..domains.descriptors import Descriptors
+from ..domains.domain import Domain
+from ..domains.thresholds import Thresholds
+from ..errors import SnapshotError, StoreError
 from .config import Config
-from .domain import Bits, Descriptors, Domain, Thresholds
-from .errors import SnapshotError, StoreError
 
 if TYPE_CHECKING:
     from .agent import Agent
@@ -41,10 +44,10 @@ class MemoryStore:
         # A longer one than any of this agent's cannot be whole.
         self.data = bytearray(2 * slot_bytes)
         self.data[: min(len(snapshot), slot_bytes)] = snapshot[:slot_bytes]
-        self.native = _lib.Store()
+        self.native = _native.Store()
         self.native.slot_bytes = slot_bytes
-        self.native.read = _lib.STORE_READ(self._read)
-        self.native.write = _lib.STORE_WRITE(self._write)
+        self.native.read = _native.STORE_READ(self._read)
+        self.native.write = _native.STORE_WRITE(self._write)
 
     def _read(self, _ctx: int | None, offset: int, buffer: int, count: int) -> int:
         part = bytes(self.data[offset : offset + count])
@@ -57,17 +60,17 @@ class MemoryStore:
         self.data[offset : offset + count] = ctypes.string_at(buffer, count)
         return 0
 
-    def peek(self) -> tuple[int, _lib.SnapshotInfo]:
+    def peek(self) -> tuple[int, _native.SnapshotInfo]:
         """Look at the newest snapshot: the library's status, and what it is."""
-        info = _lib.SnapshotInfo()
-        status = _lib.call.rlvc_snapshot_peek(ctypes.byref(self.native), ctypes.byref(info))
+        info = _native.SnapshotInfo()
+        status = _native.call.rlvc_snapshot_peek(ctypes.byref(self.native), ctypes.byref(info))
         return int(status), info
 
     def newest(self) -> bytes:
         """Give the newest snapshot."""
         status, info = self.peek()
-        if status != _lib.OK:
-            raise SnapshotError(_lib.status_text(status))
+        if status != _native.OK:
+            raise SnapshotError(_native.status_text(status))
         start = info.slot * self.native.slot_bytes
         return bytes(self.data[start : start + info.bytes])
 

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""Percepts of bits (section 6.1)."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _native
+from ..errors import ConfigError, PerceptError
+from .callbacks import Guard
+from .domain import Domain, Percept
+
+_UINT8 = np.dtype(np.uint8)
+_BOOL = np.dtype(np.bool_)
+
+
+class Bits(Domain):
+    """Percepts that are strings of bits; a feature is the number of a bit (section 6.1).
+
+    Parameters
+    ----------
+    bits : int
+        How many, [1, 1024].
+
+    Raises
+    ------
+    ConfigError
+        ``bits`` is out of range.
+
+    Notes
+    -----
+    A percept is given packed, as bytes or uint8 [ceil(bits / 8)] with bit i in bit i % 8 (0 the lowest)
+    of byte i // 8, or as bool [bits]. Source: ``core/include/rlvc/bits.h``.
+    """
+
+    def __init__(self, bits: int) -> None:
+        if not 1 <= bits <= _native.BITS_MAX:
+            raise ConfigError(f"bits: {bits} is not in [1, {_native.BITS_MAX}]")
+        super().__init__(np.uint8, ((bits + 7) // 8,), np.uint16, bits)
+        self.bits = bits
+
+    def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
+        """Whether the bit of that number is 1."""
+        return bool(percept[int(feature) // 8] >> (int(feature) % 8) & 1)
+
+    def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Every bit, in order."""
+        return np.arange(self.bits, dtype=np.uint16)
+
+    def name(self, feature: Any) -> str:
+        """``bit`` and the number."""
+        return f"bit {int(feature)}"
+
+    def pack(self, percept: Percept) -> bytes:
+        """Like :meth:`Domain.pack`; also packs bool [bits]."""
+        if type(percept) is np.ndarray:
+            if percept.dtype is _UINT8 and percept.shape == self.percept_shape:
+                return percept.tobytes()
+            if percept.dtype is _BOOL and percept.shape == (self.bits,):
+                return np.packbits(percept, bitorder="little").tobytes()
+        return super().pack(percept)
+
+    def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Like :meth:`Domain.pack_many`; also packs bool [n, bits]."""
+        if isinstance(percepts, np.ndarray) and percepts.dtype == _BOOL:
+            if percepts.ndim != 2 or percepts.shape[1] != self.bits:
+                raise PerceptError(
+                    f"percepts of bool{list(percepts.shape)}, not ['n', {self.bits}]"
+                )
+            return np.packbits(percepts, axis=1, bitorder="little")
+        return super().pack_many(percepts)
+
+    def native(self, guard: Guard) -> _native.Domain:
+        """The library's own domain, which calls no Python."""
+        native = _native.Domain()
+        _native.call.rlvc_bits_domain(self.bits, ctypes.byref(native))
+        return native

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""The paper's mazes as Gymnasium environments: ``rlvc/BinaryGridworld-v0``, ``rlvc/TiledGridworld-v0``.
+
+They play in the maze of ``examples/gridworld``, as the tool ``run_gridworld`` does. ``import rlvc.envs``
+registers them.
+"""
+
+try:
+    import gymnasium
+except ImportError:
+    raise ImportError("the environments need Gymnasium: pip install 'rlvc[gym]'") from None
+
+from .gridworld import BinaryGridworld, Gridworld
+from .maze import ACTIONS, SMALL, Maze
+from .tiled import TiledGridworld
+
+__all__ = ["ACTIONS", "SMALL", "BinaryGridworld", "Gridworld", "Maze", "TiledGridworld", "register"]
+
+
+def register() -> None:
+    """Register the environments; doing so twice does nothing."""
+    for kind in (BinaryGridworld, TiledGridworld):
+        name = f"rlvc/{kind.__name__}-v0"
+        if name not in gymnasium.registry:
+            gymnasium.register(name, entry_point=f"rlvc.envs:{kind.__name__}")
+
+
+register()

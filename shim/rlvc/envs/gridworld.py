@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: MIT
+"""The gridworld, and the Binary Gridworld (section 6.1)."""
+
+from __future__ import annotations
+
+import abc
+import ctypes
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import gymnasium
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+
+from .. import _native
+from ..errors import ConfigError, MazeError
+from .maze import Maze
+
+_Observation = TypeVar("_Observation")
+
+
+class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
+    """What the two environments have in common: a maze, and an agent's place in it.
+
+    A move into the exit earns 100 and ends the episode; any other earns -1. An episode starts at a
+    random free cell.
+
+    Attributes
+    ----------
+    maze : Maze
+    """
+
+    metadata = {"render_modes": ["ansi"]}  # noqa: RUF012 - as Gymnasium has it
+
+    def __init__(
+        self, maze: str | Path | None, distractors: int, slip: float, render_mode: str | None
+    ) -> None:
+        if isinstance(maze, Path):
+            try:
+                maze = maze.read_text(encoding="utf-8")
+            except (OSError, UnicodeDecodeError) as error:
+                raise MazeError(f"{maze}: cannot be read: {error}") from error
+        if render_mode not in (None, "ansi"):
+            raise ConfigError(f"render_mode: {render_mode!r} is not ansi")
+        self.maze = Maze(maze)
+        self.distractors = distractors
+        self.slip = slip
+        self.render_mode = render_mode
+        if not 0 <= distractors <= _native.BITS_MAX or self.maze.bits(distractors) > _native.BITS_MAX:
+            raise ConfigError(f"distractors: {distractors}: at most {_native.BITS_MAX} bits in all")
+        self.action_space = spaces.Discrete(4)
+        self._world = _native.World()
+        self._over = True
+        self._seed(0)
+
+    def _seed(self, seed: int) -> None:
+        status = _native.call.rlvc_shim_world_init(
+            ctypes.byref(self._world),
+            ctypes.byref(self.maze.native),
+            self.distractors,
+            self.slip,
+            seed,
+        )
+        if status != 0:
+            raise ConfigError(f"slip: {self.slip} is not in [0, 1]")
+
+    @abc.abstractmethod
+    def _observe(self) -> _Observation:
+        """What is seen from the agent's cell."""
+
+    def _info(self) -> dict[str, Any]:
+        return {"x": self._world.cell % self.maze.width, "y": self._world.cell // self.maze.width}
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[_Observation, dict[str, Any]]:
+        """Start an episode at a random free cell.
+
+        Parameters
+        ----------
+        seed : int or None
+            Of everything random from here on; None goes on.
+        options : dict or None
+            Not looked at.
+
+        Returns
+        -------
+        tuple
+            The observation, and {"x", "y"}: where the agent is, in cells.
+        """
+        fresh = self._np_random is None
+        super().reset(seed=seed)
+        if seed is not None or fresh:
+            self._seed(int(self.np_random.integers(2**32)))
+        else:
+            _native.call.rlvc_shim_world_reset(ctypes.byref(self._world))
+        self._over = False
+        return self._observe(), self._info()
+
+    def step(self, action: Any) -> tuple[_Observation, float, bool, bool, dict[str, Any]]:
+        """Move: 0 up, 1 right, 2 down, 3 left.
+
+        Parameters
+        ----------
+        action : int
+
+        Returns
+        -------
+        tuple
+            The observation, the reward, terminated, truncated (never), and the place.
+
+        Raises
+        ------
+        gymnasium.error.InvalidAction
+            There is no such action.
+        gymnasium.error.ResetNeeded
+            The episode is over.
+        """
+        if not self.action_space.contains(action):
+            raise gymnasium.error.InvalidAction(f"{action!r} is not in [0, 3]")
+        if self._over:
+            raise gymnasium.error.ResetNeeded("call reset first")
+        reward = ctypes.c_float()
+        status = _native.call.rlvc_shim_world_step(
+            ctypes.byref(self._world), int(action), ctypes.byref(reward)
+        )
+        self._over = status == 1
+        return self._observe(), float(reward.value), self._over, False, self._info()
+
+    def render(self) -> str | None:
+        """Draw the maze as text, with ``@`` for the agent."""
+        if self.render_mode is None:
+            return None
+        rows = [list(row) for row in self.maze.rows]
+        here = self._info()
+        rows[here["y"]][here["x"]] = "@"
+        return "\n".join("".join(row) for row in rows)
+
+
+class BinaryGridworld(Gridworld[npt.NDArray[np.int8]]):
+    """The Binary Gridworld (section 6.1): a maze whose cells are seen as strings of bits.
+
+    An observation is MultiBinary: x, lowest bit first; distractors, drawn anew each time; y, lowest bit
+    first. See :class:`Gridworld` for the rest.
+
+    Parameters
+    ----------
+    maze : str, Path or None
+        A maze's text, or a file with it; None is the paper's.
+    distractors : int
+        Bits that say nothing.
+    slip : float
+        Probability that a move goes astray, in one of the three other directions.
+    render_mode : {"ansi"} or None
+
+    Raises
+    ------
+    MazeError
+        The maze is none.
+    ConfigError
+        ``slip`` is not in [0, 1], or an observation would have more than 1024 bits.
+    """
+
+    def __init__(
+        self,
+        maze: str | Path | None = None,
+        distractors: int = 11,
+        slip: float = 0.0,
+        render_mode: str | None = None,
+    ) -> None:
+        super().__init__(maze, distractors, slip, render_mode)
+        self._bits = self.maze.bits(distractors)
+        self.observation_space = spaces.MultiBinary(self._bits)
+        self._percept = np.zeros((self._bits + 7) // 8, np.uint8)
+
+    def _observe(self) -> npt.NDArray[np.int8]:
+        _native.call.rlvc_shim_world_percept(ctypes.byref(self._world), self._percept.ctypes.data)
+        return np.unpackbits(self._percept, count=self._bits, bitorder="little").astype(np.int8)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""The Tiled Gridworld (section 6.2): cells are seen as pictures of objects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+
+from .. import objects
+from ..errors import PictureError
+from .gridworld import Gridworld
+
+
+class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
+    """The Tiled Gridworld (section 6.2): a maze in whose cells objects lie, seen as pictures.
+
+    An observation is a Box of uint8 [height, width, 3], red first: a picture of the object in the
+    agent's cell, from one of its angles at random; black at the exit. See :class:`Gridworld` for the
+    rest. An :class:`rlvc.vision.Eye` makes percepts of it.
+
+    Parameters
+    ----------
+    maze : str, Path or None
+        A maze's text, such as :data:`SMALL`, or a file with it; None is Sutton's, of 46 cells.
+    pictures : ndarray, str, Path or None
+        An array of uint8 [objects, height, width, 3] or [objects, views, height, width, 3]; or a folder
+        such as that of COIL-100; None renders objects. The two last need the vision module:
+        :func:`rlvc.objects.find` reads and renders.
+    angles : sequence of int
+        In degrees, from which objects are seen; of no meaning for an array.
+    placement : int or None
+        Of which objects lie where: a number puts them at random, with that seed; None in their order.
+    slip : float
+        Probability that a move goes astray, in one of the three other directions.
+    render_mode : {"ansi"} or None
+
+    Attributes
+    ----------
+    objects : rlvc.objects.Objects
+    object_of : ndarray of int, [height * width]
+        Which object lies in each cell; -1 where none does.
+
+    Raises
+    ------
+    MazeError
+        The maze is none.
+    PictureError
+        There are fewer objects than cells, or what is no picture that can be used.
+    ConfigError
+        ``slip`` is not in [0, 1].
+    ImportError
+        The package has no vision module; the text says what to install.
+    """
+
+    def __init__(
+        self,
+        maze: str | Path | None = None,
+        pictures: npt.NDArray[np.uint8] | str | Path | None = None,
+        angles: Sequence[int] = (0,),
+        placement: int | None = None,
+        slip: float = 0.0,
+        render_mode: str | None = None,
+    ) -> None:
+        super().__init__(maze, 0, slip, render_mode)
+        signs = np.array([list(row) for row in self.maze.rows]).ravel()
+        cells = np.flatnonzero(signs == ".")
+        if pictures is None or isinstance(pictures, str | Path):
+            self.objects = objects.find(pictures, angles, wanted=len(cells))
+        else:
+            self.objects = objects.given(pictures)
+        count = len(self.objects.names)
+        if count < len(cells):
+            raise PictureError(f"pictures: of {count} objects, and the maze has {len(cells)} cells")
+        order = np.arange(count)
+        if placement is not None:
+            np.random.default_rng(placement).shuffle(order)
+        self.object_of = np.full(len(signs), -1)
+        self.object_of[cells] = order[: len(cells)]
+        self.observation_space = spaces.Box(0, 255, self.objects.pictures.shape[2:], np.uint8)
+
+    def _observe(self) -> npt.NDArray[np.uint8]:
+        here = self.object_of[self._world.cell]
+        if here < 0:
+            return np.zeros(self.objects.pictures.shape[2:], np.uint8)
+        views = self.objects.pictures[here]
+        return np.array(views[int(self.np_random.integers(len(views)))])

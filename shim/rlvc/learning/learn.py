@@ -1,0 +1,277 @@
+# SPDX-License-Identifier: MIT
+"""Learning from Gymnasium environments, and what comes out of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..agent.agent import Agent
+from ..agent.config import Config
+from ..agent.results import Choice
+from ..domains.bits import Bits
+from ..domains.domain import Domain
+from ..domains.thresholds import Thresholds
+from ..errors import ConfigError
+from .encode import Encoder
+from .environment import Environment
+from .interact import Interaction, collect, packed
+from .run import Record, Run
+from .shrink import shrink
+from .small_policy import SmallPolicy
+from .trials import Trials
+
+if TYPE_CHECKING:
+    import gymnasium
+
+_CAPACITY_MAX = 1_000_000
+_LEAVES = 12  # of a policy on trial
+_RANDOM_AT_FIRST = 1000  # interactions before the first trial
+_LAST = 0.25  # share of the interactions that choose among the policies tried before
+# With trials, of a class that is tested. What is felt only seldom, as the end of the track, is not seen
+# in fewer, and the classes are used up by what is felt always.
+_MIN_SAMPLES = 64
+
+
+def _bar(total: int, wanted: bool) -> Any:
+    if not wanted:
+        return None
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        raise ImportError("a progress bar needs tqdm: pip install 'rlvc[gym]'") from None
+    return tqdm(total=total, unit=" interactions")
+
+
+def _note(run: Run, learner: Interaction, splits: int, bar: Any) -> None:
+    statistics = run.agent.statistics
+    mean = float(np.mean(learner.returns)) if learner.returns else float("nan")
+    run.history.append(
+        Record(
+            statistics.step, learner.done, statistics.classes, splits, len(learner.returns), mean
+        )
+    )
+    learner.returns = []
+    if bar is not None:
+        bar.update(learner.done - bar.n)
+        bar.set_postfix({"classes": statistics.classes, "return": f"{mean:.3g}", "splits": splits})
+
+
+def domain_of(encoder: Any) -> Domain:
+    """Give the domain of an encoder's percepts: its own, or that of bits.
+
+    Parameters
+    ----------
+    encoder : object
+
+    Returns
+    -------
+    Domain
+    """
+    domain = getattr(encoder, "domain", None)
+    return domain if isinstance(domain, Domain) else Bits(encoder.bits)
+
+
+def default_config(actions: int, interactions: int, seed: int, changes: dict[str, Any]) -> Config:
+    """Give the config of :func:`learn`: that of an agent, with room for all interactions.
+
+    Parameters
+    ----------
+    actions, interactions, seed : int
+    changes : dict
+        Fields that the caller chose.
+
+    Returns
+    -------
+    Config
+    """
+    fields: dict[str, Any] = {
+        "capacity": min(2 * interactions, _CAPACITY_MAX),
+        "classes": 512,
+        "seed": seed,
+        "discount": 0.99,
+        "tolerance": 0.001,
+    }
+    if changes.get("criterion") == "returns":
+        fields |= {"epsilon": 0.8, "alpha_known": 0.0001, "explore": "uniform"}
+    try:
+        return Config(actions, **(fields | changes))
+    except TypeError as error:
+        raise ConfigError(f"no such field: {error}") from None
+
+
+def learn(
+    env: gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any],
+    interactions: int,
+    *,
+    encoder: Encoder | None = None,
+    every: int | None = None,
+    seed: int | None = None,
+    thresholds: int = 15,
+    leaves: int | None = None,
+    progress: bool = False,
+    callback: Callable[[Run], object] | None = None,
+    **config: Any,
+) -> Run:
+    """Learn from an environment: the loop of section 4.2.1.
+
+    Parameters
+    ----------
+    env : gymnasium.Env or gymnasium.vector.VectorEnv
+        Its actions are Discrete. What its observations may be, :mod:`rlvc.encode` says.
+    interactions : int
+        How many to have.
+    encoder : object or None
+        Turns observations into percepts: it has ``encode(observation) -> bytes`` and ``bits``, or the
+        ``domain`` that the percepts are of, as :class:`rlvc.vision.Eye` has. None:
+        an :class:`~rlvc.encode.Encoder` for the environment's space.
+    every : int or None
+        Interactions from one learning step to the next. None: a hundredth of all, at least 100.
+    seed : int or None
+        Of the environment and of all choices: the same seed gives the same tree. None: any.
+    thresholds : int
+        For each element of a Box, at most so many cutpoints are looked at in a class; 0: all there are.
+    leaves : int or None
+        Learn by trials (:mod:`rlvc.trials`): what acts is a policy of at most so many leaves, made of
+        the agent's values, and the one that earned most is kept. A learning step comes after each
+        trial, and not ``every`` so many interactions; after a random beginning (1000 interactions, or
+        a tenth of all) nothing explores but the trials. In the last quarter nothing is learnt; in each
+        episode the best so far acts, so that what was good by luck is found out. 0: no trials. None: 12
+        where percepts are real numbers and there is one environment, else 0. Trials need both, and are
+        not for the criterion of returns.
+    progress : bool
+        Whether to show a progress bar, with classes, return and refinements.
+    callback : callable or None
+        Called with the run after each learning step, and each episode of the last quarter where
+        learning is by trials; if it returns True, learning ends.
+    **config
+        Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
+        million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with trials,
+        ``min_samples`` 64. Where the world changes, a smaller ``capacity`` forgets sooner what was.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    SpaceError
+        The actions are not Discrete, or the observations cannot be encoded.
+    ConfigError
+        A field of the config, ``interactions``, ``every`` or ``leaves`` is out of range.
+
+    Notes
+    -----
+    Ctrl-C ends learning; the run so far is returned, and is ``interrupted``.
+    """
+    if interactions < 1 or (every is not None and every < 1):
+        raise ConfigError("interactions and every are at least 1")
+    if seed is None:
+        seed = int(np.random.SeedSequence().generate_state(1)[0])
+    stream = Environment(env, seed)
+    if stream.vector and config.get("criterion") == "returns":
+        raise ConfigError(
+            "criterion: returns need episodes in one piece, and so a single environment"
+        )
+    learner = Interaction(stream, interactions, every or max(100, interactions // 100))
+    if encoder is None:
+        encoder = Encoder(stream.observation_space, thresholds)
+    domain = domain_of(encoder)
+    able = isinstance(domain, Thresholds) and not stream.vector
+    able = able and config.get("criterion") != "returns"
+    if leaves is None:
+        leaves = _LEAVES if able else 0
+    if leaves < 0 or (leaves > 0 and not able):
+        raise ConfigError(
+            "leaves: trials need one environment, percepts that are real numbers, and not the criterion "
+            "of returns"
+        )
+    if leaves > 0:
+        config = {"min_samples": _MIN_SAMPLES} | config
+    settings = default_config(stream.actions, interactions, seed % 2**32, config)
+    run = Run(Agent(domain, settings), encoder, seed, stream.start)
+    bar = _bar(interactions, progress)
+    try:
+        if leaves > 0:
+            _learn_by_trials(run, learner, leaves, bar, callback)
+        else:
+            _learn(run, learner, bar, callback)
+    except KeyboardInterrupt:
+        run.interrupted = True
+    finally:
+        if bar is not None:
+            bar.close()
+    return run
+
+
+def _learn(
+    run: Run,
+    learner: Interaction,
+    bar: Any,
+    callback: Callable[[Run], object] | None,
+) -> None:
+    if not learner.stream.vector:
+        run.agent.begin(run.encoder.encode(learner.stream.current))  # type: ignore[union-attr]
+    for _ in collect(run, learner):
+        splits = run.agent.learn().splits
+        _note(run, learner, splits, bar)
+        if callback is not None and callback(run) is True:
+            return
+
+
+def _shrunk(agent: Agent, percepts: npt.NDArray[Any], leaves: int) -> SmallPolicy:
+    """A small policy by the agent's values; what was not tried in a class is worth the least there."""
+    tried = agent.samples > 0
+    least = np.min(agent.q, axis=1, where=tried, initial=np.inf, keepdims=True)
+    values = np.where(tried, agent.q, np.where(np.isinf(least), 0.0, least))
+    return shrink(percepts, values[agent.predict(percepts).class_id], leaves)
+
+
+def _learn_by_trials(
+    run: Run,
+    learner: Interaction,
+    leaves: int,
+    bar: Any,
+    callback: Callable[[Run], object] | None,
+) -> None:
+    """Let small policies act, and learn after each trial of one; then choose among them."""
+    stream, agent, trials = learner.stream, run.agent, Trials()
+    random = np.random.default_rng([run.seed, 2])
+    percepts = np.empty((learner.interactions, *agent.domain.percept_shape), np.float32)
+    at_first = max(1, min(_RANDOM_AT_FIRST, learner.interactions // 10))
+    at_last = learner.interactions * (1 - _LAST)
+    here = packed(run.encoder, [stream.current], agent.domain)[0]
+    agent.begin(here)
+    gained, since = 0.0, 0
+    while learner.done < learner.interactions:
+        percepts[learner.done] = here
+        policy = trials.policy
+        action = int(random.integers(stream.actions)) if policy is None else policy.act(here)
+        _, _, rewards, reached, terminated, truncated = learner.transition(np.array([action]))
+        here = packed(run.encoder, reached, agent.domain)[0]
+        ends = {"terminated": bool(terminated[0]), "truncated": bool(truncated[0])}
+        agent.observe(Choice(action, policy is not None), float(rewards[0]), here, **ends)
+        gained += float(rewards[0])
+        over = terminated[0] or truncated[0]
+        if over:
+            here = packed(run.encoder, [stream.current], agent.domain)[0]
+            agent.begin(here)
+        if not over and learner.done - since < at_first:
+            continue
+        due = learner.done >= at_first if policy is None else trials.end_episode(gained)
+        gained, since = 0.0, learner.done
+        splits = 0
+        if policy is not None and learner.done >= at_last:
+            trials.resume()
+        elif due:
+            splits = agent.learn().splits
+            trials.start(_shrunk(agent, percepts[: learner.done], leaves))
+        else:
+            continue
+        run.small = trials.best or trials.policy
+        _note(run, learner, splits, bar)
+        if callback is not None and callback(run) is True:
+            return

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: MIT
+"""Learning from a log of any kind."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _native
+from ..agent.agent import Agent
+from ..agent.results import CHOICE
+from ..domains.bits import Bits
+from ..domains.domain import Domain
+from ..errors import ConfigError, LogError, PerceptError
+from ..learning.encode import Encoder, Numbers
+from ..learning.learn import default_config, domain_of
+from ..learning.run import Record, Run
+from .array_log import from_arrays, from_npz
+from .controller_log import from_records, is_records
+from .csv_log import from_csv
+from .log import Log
+from .minari_log import from_minari
+
+
+def read(log: Any, columns: Sequence[str] | None = None) -> Log:
+    """Read a log of any kind.
+
+    Parameters
+    ----------
+    log : dict of arrays, path of a file, Minari data set or its name, or Log
+        A file is an NPZ, a CSV, or a log that a controller wrote, which is known by how it begins.
+    columns : sequence of str or None
+        Of a CSV's observation.
+
+    Returns
+    -------
+    Log
+
+    Raises
+    ------
+    LogError
+        It is damaged; the text says where.
+    """
+    if isinstance(log, Log):
+        return log
+    if isinstance(log, dict):
+        return from_arrays(log)
+    if isinstance(log, str | Path):
+        if is_records(log):
+            return from_records(log)
+        suffix = Path(log).suffix.lower()
+        if suffix == ".npz":
+            return from_npz(log)
+        if suffix == ".csv":
+            return from_csv(log, columns)
+        if isinstance(log, Path) or Path(log).exists():
+            raise LogError(f"{log}: neither .npz nor .csv, nor a controller's log")
+    return from_minari(log)
+
+
+def _space_of(log: Log) -> Numbers:
+    values = np.asarray(log.before)
+    if values.dtype.kind not in "fiu":
+        raise LogError(f"{log.where}: observations: {values.dtype}: give the space they are of")
+    return Numbers(values.shape[1:])
+
+
+def _in_words(name: str, columns: list[str]) -> str:
+    """Call ``x[i]``, or ``x`` if there is but one, by its column's name."""
+    return re.sub(r"^x(?:\[(\d+)\])?", lambda match: columns[int(match[1] or 0)], name)
+
+
+def _domain_of_records(log: Log, domain: Domain | int | None) -> Domain:
+    """The domain of percepts that the log has as they are."""
+    if domain is None:
+        domain = 8 * log.record_bytes
+        if domain > _native.BITS_MAX:
+            raise ConfigError(
+                f"domain: {log.where} has percepts of {log.record_bytes} bytes, too many to be bits: "
+                "give the domain they are of"
+            )
+    if isinstance(domain, int):
+        domain = Bits(domain)
+    if domain.percept_bytes != log.record_bytes:
+        raise ConfigError(
+            f"domain: its percepts are of {domain.percept_bytes} bytes, and those of {log.where} "
+            f"of {log.record_bytes}"
+        )
+    return domain
+
+
+def _encoded(
+    log: Log, encoder: Encoder | None, space: Any, thresholds: int
+) -> tuple[Domain, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
+    """The domain of the percepts, the encoder, and the percepts before and after."""
+    values = None if isinstance(log.before, list) else np.asarray(log.before)
+    if encoder is None and space is None and values is not None and values.dtype == np.bool_:
+        if values.ndim != 2:
+            raise LogError(
+                f"{log.where}: observations: bool{list(values.shape)}, not bool[n, bits]"
+            )
+        pack = [np.packbits(v, axis=1, bitorder="little") for v in (values, np.asarray(log.after))]
+        return Bits(values.shape[1]), None, pack[0], pack[1]
+    if encoder is None:
+        chosen = space if space is not None else _space_of(log)
+        encoder = Encoder(chosen, thresholds)
+        if log.columns:
+            encoder.names = [_in_words(name, log.columns) for name in encoder.names]
+    domain = domain_of(encoder)
+    sides = []
+    for side, name in ((log.before, "observations"), (log.after, "next observations")):
+        records = []
+        for i in range(len(log)):
+            try:
+                records.append(encoder.encode(side[i]))
+            except PerceptError as error:
+                raise LogError(f"{log.where}: {name}: index {i}: {error}") from error
+        flat = np.frombuffer(b"".join(records), domain.percept_dtype)
+        sides.append(flat.reshape(len(log), *domain.percept_shape))
+    return domain, encoder, sides[0], sides[1]
+
+
+def learn_from(
+    log: Any,
+    *,
+    columns: Sequence[str] | None = None,
+    actions: int | None = None,
+    space: Any = None,
+    encoder: Encoder | None = None,
+    domain: Domain | int | None = None,
+    thresholds: int = 15,
+    steps: int = 1,
+    **config: Any,
+) -> Run:
+    """Learn from a log, without an environment.
+
+    Parameters
+    ----------
+    log : dict of arrays, path of a file, Minari data set or its name
+        :mod:`rlvc.logs` says what is in each. A file is an NPZ, a CSV, or what ``rlvc_log_observe``
+        wrote on a controller.
+    columns : sequence of str or None
+        Of a CSV's observation.
+    actions : int or None
+        How many there are. None: what the log says, or one more than the highest in it.
+    space : gymnasium.Space or None
+        Of the observations. None: bits if they are bool, else numbers, which get thresholds.
+    encoder : object or None
+        As for :func:`rlvc.learn`.
+    domain : Domain, int or None
+        Of the percepts in a controller's log; a number means :class:`~rlvc.Bits` of so many bits. None:
+        all their bits.
+    thresholds : int
+        For each number of an observation, at most.
+    steps : int
+        Learning steps. Under the residual criterion one finds all; under that of returns, step k
+        looks k interactions ahead, each at the whole log.
+    **config
+        Fields of :class:`~rlvc.Config`. The criterion is ``residual`` unless one is given;
+        that of returns needs a log that says what was exploited.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    LogError
+        The log is damaged; the text says in which file, where, and what is wrong.
+    ConfigError
+        A field is out of range, or the criterion needs what the log has not.
+    """
+    read_log = read(log, columns)
+    if config.get("criterion") == "returns" and read_log.exploited is None:
+        raise ConfigError("criterion: returns need a log that says what was exploited")
+    if steps < 1:
+        raise ConfigError("steps: at least 1")
+    highest = int(read_log.actions.max())
+    count = (read_log.action_count or highest + 1) if actions is None else actions
+    if highest >= count:
+        index = int(np.argmax(read_log.actions >= count))
+        raise LogError(
+            f"{read_log.where}: actions: index {index}: {read_log.actions[index]} is not in [0, {count})"
+        )
+    if read_log.record_bytes:
+        domain = _domain_of_records(read_log, domain)
+        encoder, before, after = None, read_log.before, read_log.after
+    else:
+        domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
+    settings = default_config(count, len(read_log), int(config.get("seed", 1)), config)
+    run = Run(Agent(domain, settings), encoder, settings.seed)
+    choices = np.zeros(len(read_log), CHOICE)
+    choices["action"] = read_log.actions
+    if read_log.exploited is not None:
+        choices["exploited"] = read_log.exploited
+    for k in range(steps):
+        if k == 0 or settings.criterion == "returns":
+            run.agent.observe_many(before, choices, read_log.rewards, after, read_log.ends)
+        splits = run.agent.learn().splits
+        classes = run.agent.classes
+        run.history.append(Record(k + 1, len(read_log), classes, splits, 0, float("nan")))
+    return run

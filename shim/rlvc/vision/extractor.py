@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: MIT
+"""Extraction of percepts from pictures."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ..domains.descriptors import Descriptors
+from ..errors import (
+    MetricError,
+)
+from .config import VisionConfig, config_of
+from .library import Order, Owned, Picture, call, library, native_picture
+from .metric import Metric
+
+
+class Sight(NamedTuple):
+    """What is seen of a picture.
+
+    Attributes
+    ----------
+    percept : bytes
+        The record that an agent on :meth:`Extractor.domain` takes.
+    vectors : ndarray of float32 or int8, [n, dimensions]
+        Strongest point first.
+    points : ndarray of float32, [n, 3]
+        x, y in pixels, and the response, of each.
+    """
+
+    percept: bytes
+    vectors: npt.NDArray[Any]
+    points: npt.NDArray[np.float32]
+
+
+class Extractor(Owned):
+    """Turns pictures into percepts.
+
+    Parameters
+    ----------
+    config : VisionConfig, str or None
+        A str means the defaults for that descriptor. None: the metric's, or those of SIFT.
+    metric : Metric or None
+        None: vectors are as the descriptor has them.
+    **changes
+        Fields of the config to be changed.
+
+    Attributes
+    ----------
+    config : VisionConfig
+    metric : Metric or None
+    dimensions : int
+        D: numbers of a vector.
+    percept_bytes : int
+    step : float
+        What one step of the percept's numbers is worth: tau / step is tau in their units.
+
+    Raises
+    ------
+    ConfigError
+        A field of the config is out of range.
+    MetricError
+        The metric belongs to other vectors, or this config needs one.
+
+    Examples
+    --------
+    >>> pictures = np.random.default_rng(1).integers(256, size=(4, 48, 48, 3), dtype=np.uint8)
+    >>> metric = Metric.fit(pictures, form="int8")
+    >>> extractor = Extractor(metric=metric, form="int8")
+    >>> len(extractor.extract(pictures[0])) == extractor.percept_bytes
+    True
+    """
+
+    def __init__(
+        self,
+        config: VisionConfig | str | None = None,
+        metric: Metric | None = None,
+        **changes: Any,
+    ) -> None:
+        if config is None:
+            config = VisionConfig() if metric is None else metric.config
+        self.config = config_of(config, changes)
+        self.metric = metric
+        native = self.config.native()
+        super().__init__(
+            "rlvc_extractor_create",
+            "rlvc_extractor_destroy",
+            ctypes.byref(native),
+            None if metric is None else metric._handle,
+        )
+        self.dimensions = int(library.rlvc_vision_dimensions(ctypes.byref(native)))
+        self.percept_bytes = int(library.rlvc_vision_percept_bytes(ctypes.byref(native)))
+        self.step = float(library.rlvc_extractor_step(self._handle))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle config and metric."""
+        return type(self), (self.config, self.metric)
+
+    def _record(self, picture: Picture, order: Order, points: Any) -> bytes:
+        native = native_picture(picture, order)
+        record = np.empty(self.percept_bytes // 4, np.uint32)  # aligned to 4
+        place = (record.ctypes.data, self.percept_bytes)
+        with self._lock:
+            call("rlvc_extractor_extract", self._handle, ctypes.byref(native), *place, points)
+        return record.tobytes()
+
+    def extract(self, picture: Picture, order: Order = "rgb") -> bytes:
+        """Give the percept of a picture.
+
+        Parameters
+        ----------
+        picture : ndarray of uint8, [height, width] or [height, width, 3]
+        order : {"rgb", "bgr"}
+
+        Returns
+        -------
+        bytes
+            The record that an agent on :meth:`domain` takes.
+
+        Raises
+        ------
+        PictureError
+            The picture is of the wrong dtype, shape or size.
+        """
+        return self._record(picture, order, None)
+
+    def extract_many(self, pictures: Iterable[Picture], order: Order = "rgb") -> Picture:
+        """Give the percepts of pictures, as an agent's methods for arrays take them.
+
+        Parameters
+        ----------
+        pictures : iterable of ndarray
+        order : {"rgb", "bgr"}
+
+        Returns
+        -------
+        ndarray of uint8, [n, percept_bytes]
+
+        Raises
+        ------
+        PictureError
+            A picture is of the wrong dtype, shape or size.
+        """
+        records = b"".join(self.extract(picture, order) for picture in pictures)
+        return np.frombuffer(records, np.uint8).reshape(-1, self.percept_bytes)
+
+    def look(self, picture: Picture, order: Order = "rgb") -> Sight:
+        """Give the percept of a picture, and where its vectors were found.
+
+        Parameters
+        ----------
+        picture : ndarray of uint8, [height, width] or [height, width, 3]
+        order : {"rgb", "bgr"}
+
+        Returns
+        -------
+        Sight
+
+        Raises
+        ------
+        PictureError
+            The picture is of the wrong dtype, shape or size.
+        """
+        points = np.zeros((self.config.points, 3), np.float32)
+        record = self._record(picture, order, points.ctypes.data)
+        count = int(np.frombuffer(record, np.uint32, 1)[0])
+        dtype = np.int8 if self.config.form == "int8" else np.float32
+        numbers = np.frombuffer(record, dtype, count * self.dimensions, 4)
+        return Sight(record, numbers.reshape(count, self.dimensions), points[:count])
+
+    def domain(self, radius: float | None = None, **parameters: Any) -> Descriptors:
+        """Give the domain of these percepts.
+
+        Parameters
+        ----------
+        radius : float or None
+            In units of the percept's numbers. None: the metric's tau.
+        **parameters
+            ``candidates``, ``draws`` and ``margin`` of :class:`rlvc.Descriptors`.
+
+        Returns
+        -------
+        Descriptors
+
+        Raises
+        ------
+        MetricError
+            There is neither a radius nor a metric.
+        ConfigError
+            A parameter is out of range.
+        """
+        if radius is None:
+            if self.metric is None:
+                raise MetricError("radius: give one, or make the extractor with a metric")
+            radius = self.metric.tau / self.step
+        form: Any = self.config.form
+        return Descriptors(self.config.points, self.dimensions, radius, form, **parameters)

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""The vision library: calls, errors, pictures and owned objects."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from collections.abc import Callable
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _native
+from ..errors import (
+    BlockError,
+    ConfigError,
+    Error,
+    MetricError,
+    PictureError,
+    RangeError,
+    StoreError,
+)
+
+library = _native.load_seeing("rlvc-vision", _native.VISION)
+
+_ERRORS: dict[int, type[Error]] = {
+    -102: ConfigError,
+    -103: PictureError,
+    -105: RangeError,
+    -106: MetricError,
+    -107: StoreError,
+    -108: MetricError,
+    -109: MetricError,
+    -110: MetricError,
+    -111: BlockError,
+}
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Call a function whose last argument is an ``rlvc_vision_error``."""
+    error = _native.VisionError()
+    try:
+        status = getattr(library, name)(*arguments, ctypes.byref(error))
+    except ctypes.ArgumentError as wrong:
+        raise RangeError(f"{name}: {wrong}") from None
+    if status != 0:
+        text = error.text.decode(errors="replace") or library.rlvc_vision_status_text(
+            status
+        ).decode(errors="replace")
+        raise _ERRORS.get(status, Error)(text)
+
+Order = Literal["rgb", "bgr"]
+Picture: TypeAlias = "npt.NDArray[np.uint8]"
+_FORMATS = {"rgb": 2, "bgr": 1}
+_SIDE_MAX = 32767
+
+
+def native_picture(picture: Any, order: Order) -> _native.Picture:
+    """Make the C struct of a picture, which keeps its pixels alive."""
+    if order not in _FORMATS:
+        raise PictureError(f"order: {order!r} is none of rgb, bgr")
+    if not isinstance(picture, np.ndarray):
+        raise PictureError(f"a picture is an array, not {type(picture).__name__}")
+    if picture.dtype != np.uint8:
+        raise PictureError(f"a picture of {picture.dtype}, not uint8")
+    grey = picture.ndim == 2
+    if not grey and (picture.ndim != 3 or picture.shape[2] != 3):
+        raise PictureError(f"a picture of {list(picture.shape)}, not [height, width] or [..., 3]")
+    if not 1 <= min(picture.shape[:2]) <= max(picture.shape[:2]) <= _SIDE_MAX:
+        raise PictureError(
+            f"a picture of {picture.shape[1]} x {picture.shape[0]} pixels: a side is 1 to {_SIDE_MAX}"
+        )
+    pixel = (1,) if grey else (3, 1)
+    if picture.strides[1:] != pixel or abs(picture.strides[0]) < picture.shape[1] * pixel[0]:
+        picture = np.ascontiguousarray(picture)
+    height, width = picture.shape[:2]
+    form = 0 if grey else _FORMATS[order]
+    native = _native.Picture(picture.ctypes.data, picture.strides[0], width, height, form)
+    native._keeps = picture
+    return native
+
+
+class Owned:
+    """An object of the library's, freed with this one. One thread at a time: the lock sees to that."""
+
+    def __init__(self, make: str, free: str, *arguments: Any) -> None:
+        self._lock = threading.Lock()
+        made = ctypes.c_void_p()
+        reference = ctypes.byref(made)
+        call(make, *arguments, reference)
+        self._handle: int | None = made.value
+        self._free: Callable[[int | None], None] = getattr(library, free)
+
+    def __del__(self) -> None:
+        if hasattr(self, "_free"):
+            self._free(self._handle)

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: MIT
+"""Metrics on local descriptors: whitening, and the radius tau."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from .. import _native
+from ..errors import (
+    Error,
+    RangeError,
+)
+from .config import VisionConfig, config_of
+from .library import Order, Owned, Picture, call, library, native_picture
+
+METRICS = ("plain", "covariance", "change", "discriminant")
+"""How a metric can be fitted."""
+_PAIRS = ("copies", "views")
+
+
+class Metric(Owned):
+    """What is known of the vectors of one descriptor: how to whiten them, and tau.
+
+    Made by :meth:`fit`, :meth:`load` or :meth:`read`. It can be pickled.
+
+    Attributes
+    ----------
+    tau : float
+        Within this distance two vectors count as the same feature.
+    kind : str
+        How it was fitted: one of :data:`METRICS`.
+    config : VisionConfig
+        With which it was fitted.
+    """
+
+    def __init__(self, make: str, *arguments: Any) -> None:
+        super().__init__(make, "rlvc_metric_destroy", *arguments)
+        self.tau = float(library.rlvc_metric_tau(self._handle))
+        self.kind = METRICS[library.rlvc_metric_kind(self._handle)]
+        native = _native.VisionConfig()
+        library.rlvc_metric_config(self._handle, ctypes.byref(native))
+        self.config = VisionConfig.of(native)
+
+    @classmethod
+    def fit(
+        cls,
+        pictures: Iterable[Picture],
+        objects: Sequence[int] | None = None,
+        *,
+        pairs: Iterable[tuple[Picture, Picture, str]] = (),
+        config: VisionConfig | str = "sift-upright",
+        kind: str | None = None,
+        share: float = 0.2,
+        order: Order = "rgb",
+        **changes: Any,
+    ) -> Metric:
+        """Fit a metric to a task's pictures.
+
+        Parameters
+        ----------
+        pictures : iterable of ndarray of uint8, [height, width] or [height, width, 3]
+        objects : sequence of int or None
+            What is to be seen in each. Pictures of one object are not asked whether they exhibit each
+            other's features when tau is sought. None: something else in each.
+        pairs : iterable of (ndarray, ndarray, {"copies", "views"})
+            Two pictures of the same, for the metrics of ``change`` and ``discriminant``: the second is
+            the first in other light, noise or the like (of one size), or a neighbouring view.
+        config : VisionConfig or str
+            A str means the defaults for that descriptor.
+        kind : {"plain", "covariance", "change", "discriminant"} or None
+            tau alone; Mahalanobis's distance; by what changes within the pairs; or likewise, on the axes
+            along which vectors differ most. None: plain for SIFT and ORB, else covariance.
+        share : float
+            tau is such that of the other objects' pictures this share exhibits a feature, (0, 1).
+        order : {"rgb", "bgr"}
+        **changes
+            Fields of the config to be changed.
+
+        Returns
+        -------
+        Metric
+
+        Raises
+        ------
+        ConfigError
+            A field of the config is out of range.
+        PictureError
+            A picture is of the wrong dtype, shape or size.
+        MetricError
+            There are too few pictures, vectors or pairs.
+        RangeError
+            ``share``, ``kind`` or ``how`` is out of range, or ``objects`` of another length.
+        """
+        chosen = config_of(config, changes)
+        if kind is None:
+            kind = "covariance" if "invariants" in chosen.descriptor else "plain"
+        if kind not in METRICS:
+            raise RangeError(f"kind: {kind!r} is none of {', '.join(METRICS)}")
+        native = chosen.native()
+        fitter = Owned("rlvc_fitter_create", "rlvc_fitter_destroy", ctypes.byref(native))
+        seen = list(pictures)
+        numbers = range(len(seen)) if objects is None else objects
+        if len(numbers) != len(seen):
+            raise RangeError(f"objects: {len(numbers)} of them for {len(seen)} pictures")
+        for picture, number in zip(seen, numbers, strict=True):
+            one = native_picture(picture, order)
+            if not 0 <= int(number) < 2**32:
+                raise RangeError(f"objects: {number!r} is not in [0, 2**32 - 1]")
+            call("rlvc_fitter_add", fitter._handle, ctypes.byref(one), int(number))
+        for before, after, how in pairs:
+            if how not in _PAIRS:
+                raise RangeError(f"pairs: {how!r} is none of {', '.join(_PAIRS)}")
+            two = [native_picture(picture, order) for picture in (before, after)]
+            references = (ctypes.byref(native) for native in two)
+            call("rlvc_fitter_pair", fitter._handle, *references, _PAIRS.index(how))
+        return cls("rlvc_fitter_fit", fitter._handle, METRICS.index(kind), share)
+
+    @classmethod
+    def load(cls, file: str | Path) -> Metric:
+        """Read a metric from a file that :meth:`save`, or ``run_gridworld tiled``, wrote.
+
+        Parameters
+        ----------
+        file : str or Path
+
+        Returns
+        -------
+        Metric
+
+        Raises
+        ------
+        StoreError
+            The file cannot be read.
+        MetricError
+            It is no metric, or is damaged; the text says where.
+        """
+        return cls("rlvc_metric_load", os.fsencode(file))
+
+    @classmethod
+    def read(cls, text: bytes) -> Metric:
+        """Read a metric from what :meth:`write` gave.
+
+        Parameters
+        ----------
+        text : bytes
+
+        Returns
+        -------
+        Metric
+
+        Raises
+        ------
+        MetricError
+            It is no metric, or is damaged; the text says where.
+        """
+        return cls("rlvc_metric_read", bytes(text), len(text))
+
+    def save(self, file: str | Path) -> None:
+        """Write the metric to a file, which is there as a whole or as it was before.
+
+        Parameters
+        ----------
+        file : str or Path
+
+        Raises
+        ------
+        StoreError
+            The file cannot be written.
+        """
+        call("rlvc_metric_save", self._handle, os.fsencode(file))
+
+    def write(self) -> bytes:
+        """Give the metric as JSON.
+
+        Returns
+        -------
+        bytes
+        """
+        count = ctypes.c_size_t()
+        text = ctypes.create_string_buffer(0)
+        while True:
+            room = len(text)
+            error = ctypes.byref(_native.VisionError())
+            status = library.rlvc_metric_write(
+                self._handle, text, room, ctypes.byref(count), error
+            )
+            if status == 0:
+                return text.raw[: count.value]
+            if count.value <= room:
+                raise Error(library.rlvc_vision_status_text(status).decode())
+            text = ctypes.create_string_buffer(count.value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the text."""
+        return type(self).read, (self.write(),)
