@@ -4,6 +4,7 @@
 Needs Gymnasium, tqdm and the Python package, and is left out where they are not. Short runs; none depends
 on the clock.
 """
+import dataclasses
 import json
 import os
 import pty
@@ -22,15 +23,15 @@ gymnasium = pytest.importorskip("gymnasium")
 pytest.importorskip("tqdm")
 rlvc = pytest.importorskip("rlvc")
 
-BENCH = Path(__file__).resolve().parents[2] / "tools" / "bench"
-sys.path.insert(0, str(BENCH))
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
 
-from yardstick import learners, options, runs, table, tasks, worlds  # noqa: E402
+from suite import learners, options, report, runs, tasks, worlds  # noqa: E402
 
 ENVIRONMENT = {
-    **os.environ, "PYTHONPATH": os.pathsep.join([str(BENCH), os.environ.get("PYTHONPATH", "")]),
+    **os.environ, "PYTHONPATH": os.pathsep.join([str(TOOLS), os.environ.get("PYTHONPATH", "")]),
 }
-COMMAND = [sys.executable, "-B", "-m", "yardstick"]
+COMMAND = [sys.executable, "-B", "-m", "suite"]
 
 
 def run(*arguments, cwd, program=COMMAND):
@@ -174,10 +175,10 @@ def test_a_run_and_its_table(tmp_path):
     assert re.search(r"^- (met|MISSED): lake: return after 1,000", done.stdout, re.MULTILINE)
     assert "epsilon" in done.stdout
     assert files(tmp_path) == ["out.json"]
-    report = json.loads((tmp_path / "out.json").read_text())
-    assert report["ended"] is None
-    assert len(report["runs"]) == 12
-    first = report["runs"][0]
+    made = json.loads((tmp_path / "out.json").read_text())
+    assert made["ended"] is None
+    assert len(made["runs"]) == 12
+    first = made["runs"][0]
     assert (first["task"], first["learner"], first["seed"]) == ("lake", "rlvc", 1)
     assert first["looks"][-1][0] == 1000
     assert 1 < first["compacted"] <= first["leaves"]
@@ -186,11 +187,58 @@ def test_a_run_and_its_table(tmp_path):
         {k: v for k, v in first.items() if k != "seconds"}
 
 
+def run_peer(name, task, seed):
+    """What a learner returns, and its policy's actions for task.world.looks, at the end of a run."""
+    ends = []
+    made = learners.LEARNERS[name].learn(task, seed, lambda done, act: ends.append(act))
+    return made, ends[-1](task.world.looks)
+
+
+@pytest.mark.parametrize("learner", ["rmax", "vi"])
+def test_a_learner_that_sees_the_state_solves_the_lake(learner):
+    task = tasks.TASKS["lake"]()
+    _, actions = run_peer(learner, task, 1)
+    assert task.world.evaluate(actions) == pytest.approx(1)
+
+
+def test_exploring_on_purpose_takes_fewer_interactions_than_a_random_walk():
+    directed, walk = (runs.measure("binary", name, 1)["reached"] for name in ("rmax", "vi"))
+    assert directed < walk / 4
+
+
+def test_raw_bits_are_states_where_there_are_no_distractors():
+    task = tasks.TASKS["lake"]()
+    world = worlds.table_world(gymnasium.make("FrozenLake-v1", is_slippery=False), task.world.parts, 0)
+    plain = dataclasses.replace(
+        task, world=world,
+        make=lambda seed: worlds.Seen(gymnasium.make("FrozenLake-v1", is_slippery=False), world, seed))
+    made, actions = run_peer("q", plain, 2)
+    made_raw, actions_raw = run_peer("q-raw", plain, 2)
+    assert made == made_raw
+    assert (actions == actions_raw).all()
+    assert run_peer("q-raw", task, 2)[0]["bytes"] > 10 * made["bytes"]
+
+
+def test_fitted_q_iteration_grows_a_tree():
+    task = tasks.TASKS["slippery"]()
+    made, actions = run_peer("fqi-rlvc", task, 1)
+    assert made["leaves"] > 4
+    assert task.world.evaluate(actions) > 0.5
+
+
 def test_a_record_of_a_change(monkeypatch):
     task = tasks.TASKS["changing"]()
-    monkeypatch.setitem(learners.LEARNERS, "rlvc", learners.Learner(
-        lambda task, seed, check: [check(n, lambda rows: act(rows, n)) for n in range(1000, 7000, 1000)]
-        and {"leaves": 1, "distractors": 0, "bytes": 1, "compact": lambda: (1, lambda rows: act(rows, 0))}))
+
+    class Fake:
+        about = ""
+
+        def learn(self, task, seed, check):
+            for n in range(1000, 7000, 1000):
+                check(n, lambda rows, n=n: act(rows, n))
+            return {"leaves": 1, "distractors": 0, "bytes": 1,
+                    "compact": lambda: (1, lambda rows: act(rows, 0))}
+
+    monkeypatch.setitem(learners.LEARNERS, "rlvc", Fake())
 
     def act(rows, n):
         """Optimal from 1,000 interactions on, and again 2,000 after the change."""
@@ -203,7 +251,7 @@ def test_a_record_of_a_change(monkeypatch):
     assert (record["reached"], record["reached_again"], record["again"]) == (1000, 2000, 2)
     assert (record["compacted"], record["optimal"]) == (1, 1.0)
     assert record["kept"] < record["value"] == pytest.approx(task.world.best_return(0.9))
-    text = table.render([record], ["changing"], ["rlvc"])
+    text = report.render([record], ["changing"], ["rlvc"])
     assert re.search(r"changing, again.*2,000", text)
     assert f"- met: changing: {task.bars[0].text}: 2 " in text
 
@@ -221,7 +269,7 @@ def test_refuses(arguments, tmp_path):
 
 
 def test_help_needs_nothing(tmp_path):
-    program = [sys.executable, "-I", "-S", str(BENCH / "yardstick" / "options.py")]
+    program = [sys.executable, "-I", "-S", str(TOOLS / "suite" / "options.py")]
     done = run("--help", cwd=tmp_path, program=program)
     assert done.returncode == 0
     for option in "seeds peer-seeds tasks learners jobs json".split():
@@ -246,10 +294,10 @@ def test_a_reader_that_has_seen_enough(tmp_path):
 
 def test_a_peer_that_is_missing_is_said_to_be(tmp_path):
     lacking = [sys.executable, "-B", "-c",
-               "import sys; sys.modules['torch'] = None; from yardstick.__main__ import main; sys.exit(main())"]
+               "import sys; sys.modules['torch'] = None; from suite.__main__ import main; sys.exit(main())"]
     done = run("--tasks", "lake", "--learners", "dqn", cwd=tmp_path, program=lacking)
     assert done.returncode == 0, done.stderr
-    assert re.search(r"^- missing: DQN, which needs python3-torch.*tools/setup peers", done.stdout, re.M)
+    assert re.search(r"^- not measured: DQN: needs python3-torch.*tools/setup peers", done.stdout, re.M)
 
 
 def test_a_run_that_fails_does_not_end_the_others(tmp_path):
@@ -299,9 +347,9 @@ def test_ended_early_it_prints_what_is_there(how, tmp_path):
     assert process.returncode == 130
     assert re.search(r"^\| lake +\| rlvc +\| +2 \|", out, re.MULTILINE)
     assert files(tmp_path) == ["out.json"]
-    report = json.loads((tmp_path / "out.json").read_text())
-    assert report["ended"] == "interrupted"
-    assert {r["task"] for r in report["runs"]} == {"lake"}
+    made = json.loads((tmp_path / "out.json").read_text())
+    assert made["ended"] == "interrupted"
+    assert {r["task"] for r in made["runs"]} == {"lake"}
     for _ in range(6000):  # those that look after others see their parent's end and go
         if not group(process.pid):
             break

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The tasks, and the bars that they are held to.
+"""The tasks, and the bars that rlvc must meet on them.
 
-One configuration serves them all: ``rlvc.learn`` is told a task's discount, the length of its run and a
-seed, and nothing else.
+All tasks are learnt with one configuration: a task sets the discount, the number of interactions and the
+seed of ``rlvc.learn``, and nothing else.
 """
 
 import dataclasses
@@ -19,16 +19,19 @@ import rlvc.envs  # noqa: F401 - registers the mazes
 
 from . import options, worlds
 
-MAZES = Path(__file__).resolve().parents[3] / "examples" / "gridworld" / "mazes"
+MAZES = Path(__file__).resolve().parents[2] / "examples" / "gridworld" / "mazes"
 DISTRACTORS = 6
-EPISODES = 100  # played where a return cannot be computed
+EPISODES = 100  # that are played where the return cannot be computed
 _CLOSE = 1e-6
 
 
 @dataclasses.dataclass(frozen=True)
 class Look:
-    """What a policy is worth: the return of an episode; the share of states in which it does nothing
-    but what is optimal, where that is known; whether it is as good as the task asks."""
+    """How good a policy is.
+
+    ``value``: mean return of an episode. ``optimal``: share of states in which it takes only optimal
+    actions, None where that is not known. ``good``: whether it is as good as the task asks.
+    """
 
     value: float
     optimal: float | None
@@ -37,12 +40,12 @@ class Look:
 
 @dataclasses.dataclass(frozen=True)
 class Bar:
-    """Something that the records of all runs of a task must show."""
+    """A limit for a figure over all runs of a task."""
 
     text: str
     figure: Callable[[list], float]
     limit: float
-    least: bool = False  # whether the figure must be at least that; otherwise at most
+    least: bool = False  # whether the limit is a minimum; otherwise it is a maximum
 
     def met(self, figure):
         return figure >= self.limit if self.least else figure <= self.limit
@@ -50,13 +53,13 @@ class Bar:
 
 @dataclasses.dataclass(frozen=True)
 class Task:
-    """A task: ``make(seed)`` gives its environment, ``look(act, interactions)`` judges a policy.
+    """A task: ``make(seed)`` makes its environment, ``look(act, interactions)`` judges a policy.
 
-    ``act`` gives the greedy actions of an array of observations.
+    ``act`` maps an array of observations to an array of greedy actions.
     """
 
     name: str
-    about: str  # what is not in the name
+    about: str  # what the title does not say
     discount: float
     interactions: int
     make: Callable
@@ -64,7 +67,7 @@ class Task:
     bars: tuple
     world: worlds.World | None = None
     changed: int | None = None  # interactions before the world changes
-    peers: tuple = ("q", "fqi", "dqn")
+    peers: tuple = ("fqi-rlvc", "rmax", "vi", "q", "q-raw", "fqi", "dqn")
     runs_a_seed: int = 1
 
     @property
@@ -78,9 +81,9 @@ class Task:
 
 
 def reached(looks, first=0, last=math.inf):
-    """From how many interactions on every look is good, of those after ``first`` and up to ``last``.
+    """After how many interactions every look was good, among those after ``first`` and up to ``last``.
 
-    Counted from ``first``. ``looks`` are pairs (interactions, Look). None: the last one is not good.
+    Counted from ``first``. ``looks`` are pairs (interactions, Look). None if the last one is not good.
     """
     found = None
     for interactions, look in looks:
@@ -97,7 +100,7 @@ def _values(records, key):
 
 
 def median(key):
-    """Over runs; one that never got there counts as infinite."""
+    """Of a figure over runs; None, for a run that never got there, counts as infinite."""
     return lambda records: statistics.median(_values(records, key))
 
 
@@ -124,7 +127,7 @@ CLEAN = Bar(
 
 
 def _judge(world, act, discount, asked):
-    """Look at a policy in a world; ``asked(value, optimal)`` says whether it is good."""
+    """Judge a policy in a world; ``asked(value, optimal)`` decides whether it is good."""
     chosen = act(world.looks)
     value, optimal = world.evaluate(chosen), world.optimal_states(chosen, discount)
     return Look(value, optimal, asked(value, optimal))
@@ -146,7 +149,7 @@ def binary():
         lambda seed: gymnasium.make("rlvc/BinaryGridworld-v0", distractors=noise),
         lambda act, done: _judge(world, act, discount, _everywhere),
         (
-            Bar("interactions until all cells are optimal, median", median("reached"), 1000),
+            Bar("interactions to all cells optimal, median", median("reached"), 1000),
             Bar("the same, worst run", worst("reached"), 2500),
             _small(1.2 * world.fewest_leaves(discount)),
             CLEAN,
@@ -190,7 +193,7 @@ def taxi():
 
 
 def _balance(act):
-    """The mean return of EPISODES episodes of CartPole, which are played side by side."""
+    """The mean return of EPISODES episodes of CartPole, played in parallel."""
     limit = gymnasium.spec("CartPole-v1").max_episode_steps
     env = gymnasium.make_vec(
         "CartPole-v1", num_envs=EPISODES, vectorization_mode="vector_entry_point"
@@ -233,11 +236,11 @@ def far():
         return _judge(world, act, discount, lambda value, optimal: found >= 1 - _CLOSE)
 
     return Task(
-        "far", f"asked: the shortest way, of {shortest} moves; a random walk finds the reward after "
-        f"{world.random_walk():,.0f} moves (mean)", discount, 30000,
+        "far", f"asked: the shortest path, {shortest} moves; a random walk finds the reward after "
+        f"{world.random_walk():,.0f} moves in the mean", discount, 30000,
         lambda seed: worlds.Seen(worlds.Played(world), world, seed), look,
         (
-            Bar("interactions until the way is a shortest one, median", median("reached"), 30000),
+            Bar("interactions to the shortest path, median", median("reached"), 30000),
             CLEAN,
         ),
         world,
@@ -253,7 +256,7 @@ def _random_rewards(name, walked, bars):
 
 def nothing():
     grown = share(lambda record: record["leaves"] > 1)
-    return _random_rewards("nothing", False, (Bar("share of runs that grew a test", grown, 0.05),))
+    return _random_rewards("nothing", False, (Bar("share of runs whose tree has a test", grown, 0.05),))
 
 
 def wander():
@@ -276,14 +279,14 @@ def changing():
         return _judge(later if done > after else before, act, discount, _everywhere)
 
     return Task(
-        "changing", f"asked: all cells optimal, before the walls change after {after:,} interactions "
-        "and again", discount, 2 * after, make, look,
+        "changing", f"asked: all cells optimal before the walls change, after {after:,} interactions, "
+        "and again after that", discount, 2 * after, make, look,
         (
-            Bar("interactions until all cells are optimal again, by those of learning it first, median",
+            Bar("interactions to all cells optimal after the change, over those before it, median",
                 median("again"), 3),
             CLEAN,
         ),
-        later, changed=after, peers=("q", "dqn"),
+        later, changed=after, peers=("q", "q-raw", "dqn"),
     )  # fmt: skip
 
 

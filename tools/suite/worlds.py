@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Worlds whose every state is known: what they are worth, solved exactly, and how they are seen.
+"""Worlds that are fully known: their exact solution, and what a learner observes of them.
 
-A world is a table: from state s action a leads with probability chance[s, a, j] to following[s, a, j],
-earns reward[s, a, j], and ends the episode if over[s, a, j]. A learner never sees s, but a row of bits
-with some among them that are drawn anew each time and say nothing.
+A world is a table. In state s, action a leads to following[s, a, j] with probability chance[s, a, j],
+earns reward[s, a, j], and ends the episode if over[s, a, j]. A learner does not observe s but a row of
+bits; some of them, the distractors, are random at each observation.
 """
 
 import dataclasses
@@ -14,7 +14,7 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-DRAWS = 64  # of the distractors: all there are if they are 6
+DRAWS = 64  # of the distractors: every combination if there are 6
 _CLOSE = 1e-9  # values nearer than this are equal
 
 
@@ -31,9 +31,9 @@ def width_of(count):
 class World:
     """See the head of this file.
 
-    ``parts`` holds the columns [states, bits] of what is seen of a state, ``noise`` says how many
-    distractors come after each part; ``starts`` is the probability of starting in each state, ``limit``
-    how many moves an episode has at most.
+    ``parts`` are the columns [states, bits] that show the state, ``noise`` the number of distractors
+    after each part, ``starts`` the probability of starting in each state, and ``limit`` the most moves
+    of an episode.
     """
 
     following: np.ndarray
@@ -51,7 +51,7 @@ class World:
 
     @functools.cached_property
     def distractors(self):
-        """Which columns of an observation say nothing."""
+        """The columns of an observation that are distractors."""
         columns, place = [], 0
         for part, noise in zip(self.parts, self.noise, strict=True):
             place += part.shape[1]
@@ -61,7 +61,7 @@ class World:
 
     @functools.cached_property
     def bits(self):
-        """What is seen of each state, zeros in place of distractors: uint8 [states, bits]."""
+        """The observation of each state, with zeros as distractors: uint8 [states, bits]."""
         columns = []
         for part, noise in zip(self.parts, self.noise, strict=True):
             columns += [part, np.zeros((len(part), noise), np.uint8)]
@@ -75,7 +75,7 @@ class World:
 
     @functools.cached_property
     def informative(self):
-        """The columns that are no distractors."""
+        """The columns that are not distractors."""
         return np.setdiff1d(np.arange(self.bits.shape[1]), self.distractors)
 
     @functools.cached_property
@@ -83,12 +83,12 @@ class World:
         return {row.tobytes(): s for s, row in enumerate(self.bits[:, self.informative])}
 
     def state_of(self, observation):
-        """The state that is seen, for learners that are told it."""
+        """The state of an observation, for learners that see the state."""
         return self._numbers[np.asarray(observation, np.uint8)[self.informative].tobytes()]
 
     @functools.cached_property
     def reachable(self):
-        """The states in which one may have to act."""
+        """The states that an episode can reach, and in which it goes on."""
         found = self.starts > 0
         while True:
             steps = (self.chance > 0) & ~self.over & found[:, None, None]
@@ -115,7 +115,7 @@ class World:
         return (self.chance * (self.reward + discount * onward)).sum(axis=2)
 
     def solve(self, discount):
-        """Q(s, a) of the best policy, by value iteration."""
+        """Q(s, a) of the optimal policy, by value iteration."""
         values = np.zeros(len(self.starts))
         while True:
             q = self._backup(values, discount)
@@ -132,8 +132,8 @@ class World:
     def evaluate(self, chosen):
         """The exact mean undiscounted return of an episode.
 
-        ``chosen`` [states * DRAWS] has the action at each of ``looks``; as distractors are drawn anew
-        each time, what it does in a state is random, with the shares that it has there.
+        ``chosen`` [states * DRAWS] is the action at each of ``looks``. Distractors are random, so the
+        policy is random too: it takes each action in a state as often as the draws there do.
         """
         shares = np.zeros((len(self.starts), self.actions))
         for action in range(self.actions):
@@ -145,20 +145,20 @@ class World:
         return float(self.starts @ values)
 
     def optimal_states(self, chosen, discount):
-        """The share of states with none but optimal actions, whatever the distractors are."""
+        """The share of states with only optimal actions, whatever the distractors are."""
         best = np.repeat(self.best_actions(discount), DRAWS, axis=0)
         right = best[np.arange(len(chosen)), chosen].reshape(-1, DRAWS)
         return float(right.all(axis=1).mean())
 
     def best_return(self, discount):
-        """The return of a policy that is optimal by that discount."""
+        """The return of a policy that is optimal for that discount."""
         best = self.solve(discount)[self.reachable].argmax(axis=1)
         return self.evaluate(np.repeat(best, DRAWS))
 
     def random_walk(self):
-        """The mean number of moves until a random walk first earns something.
+        """The mean number of moves until a random walk first earns a reward.
 
-        Of a walk that starts again after ``limit`` moves.
+        The walk starts again after ``limit`` moves.
         """
         there = self.starts.copy()
         found, moves = 0.0, 0.0
@@ -172,17 +172,17 @@ class World:
         return (moves + (1 - found) * self.limit) / found
 
     def fewest_leaves(self, discount):
-        """How many leaves the smallest tree over the bits has that acts optimally everywhere.
+        """The number of leaves of the smallest tree over the bits that acts optimally everywhere.
 
-        By dynamic programming over the cubes in the space of bits, each of which is a possible class: a
-        cube is a leaf if one action is optimal in all its states; otherwise the best test is sought.
+        By dynamic programming over the cubes in the space of bits: each is a possible class. A cube is a
+        leaf if one action is optimal in all its states; otherwise the best test splits it.
         """
         rows = self.bits[self.reachable][:, self.informative]
         count = rows.shape[1]
         best = self.best_actions(discount) @ (1 << np.arange(self.actions))
         allowed = np.full((2,) * count, (1 << self.actions) - 1)
         np.bitwise_and.at(allowed, tuple(rows.T), best)
-        for axis in range(count):  # 0, 1, and 2 for either
+        for axis in range(count):  # 0, 1, or 2 for both
             either = np.bitwise_and.reduce(allowed, axis=axis, keepdims=True)
             allowed = np.concatenate([allowed, either], axis=axis)
         allowed = allowed.ravel()
@@ -201,7 +201,7 @@ class World:
 
 
 def maze_world(rows, distractors, start=None, earned=100.0, cost=-1.0, limit=100):
-    """A maze: x, the distractors, y; a move into the exit earns and ends, any other costs."""
+    """A maze, seen as bits of x, distractors, bits of y. The exit earns ``earned``."""
     signs = np.array([list(row) for row in rows])
     height, width = signs.shape
     cells = np.arange(height * width)
@@ -222,7 +222,7 @@ def maze_world(rows, distractors, start=None, earned=100.0, cost=-1.0, limit=100
 
 
 def table_world(env, parts, distractors):
-    """One of Gymnasium's toy texts, whose table lies open."""
+    """The world of one of Gymnasium's toy-text environments, from its table."""
     table, starts = env.unwrapped.P, np.asarray(env.unwrapped.initial_state_distrib, float)
     most = max(len(outcomes) for row in table.values() for outcomes in row.values())
     shape = (len(table), len(table[0]), most)
@@ -239,7 +239,7 @@ def table_world(env, parts, distractors):
 
 
 class Seen(gymnasium.ObservationWrapper):
-    """An environment whose states are seen as a world's bits."""
+    """An environment whose states are observed as a world's bits."""
 
     def __init__(self, env, world, seed):
         super().__init__(env)
@@ -252,7 +252,7 @@ class Seen(gymnasium.ObservationWrapper):
 
 
 class Played(gymnasium.Env):
-    """A world as an environment; its observation is the number of the state."""
+    """A world as an environment; the observation is the number of the state."""
 
     def __init__(self, world):
         self.world = world
@@ -277,7 +277,7 @@ class Played(gymnasium.Env):
 
 
 class Changing(gymnasium.Env):
-    """An environment that is replaced by another, alike to look at, after so many interactions.
+    """An environment that another one, with the same spaces, replaces after so many interactions.
 
     The change waits for the end of an episode.
     """
@@ -300,12 +300,12 @@ class Changing(gymnasium.Env):
 
 
 class Nothing(gymnasium.Env):
-    """Rewards are random, whatever is seen and done.
+    """Rewards are random, whatever the state and action.
 
-    Six bits are a place on a ring, another six are drawn anew each time. If ``walked`` the two
-    actions move the place up and down, so that there is something to foretell, though nothing to gain;
-    otherwise it is drawn anew as well. A reward is a coin's toss if the seed is even, a normal number if
-    it is odd. An episode has 100 moves.
+    Six bits are a position on a ring, six more are random. If ``walked``, the two actions move the
+    position up and down: observations predict the next ones, but nothing predicts a reward. Otherwise
+    the position is random too. A reward is 0 or 1 for an even seed, a normal number for an odd one. An
+    episode has 100 moves.
     """
 
     def __init__(self, seed, walked):

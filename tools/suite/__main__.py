@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs tasks, learners and seeds, several at a time, and writes the table. See options.py."""
+"""Runs tasks, learners and seeds, several at a time, and prints the table. See options.py."""
 
 import json
 import os
@@ -7,13 +7,13 @@ import signal
 import sys
 import tempfile
 
-from . import options, runs, table
-from .learners import missing
+from . import options, report, runs
+from .learners import LEARNERS
 from .tasks import TASKS
 
 
 def _jobs(args, learners):
-    """The runs of each learner, on the tasks that it is for."""
+    """The runs of each learner, on the tasks that suit it."""
     jobs = []
     for learner in learners:
         for name in args.tasks:
@@ -27,13 +27,13 @@ def _jobs(args, learners):
     return jobs
 
 
-def _write_whole(path, report):
-    """The file is there as a whole, or as it was before."""
+def _write_json(path, content):
+    """Write the whole file, or leave the old one as it was."""
     folder = os.path.dirname(os.path.abspath(path))
     handle, temporary = tempfile.mkstemp(dir=folder, prefix=".yardstick-")
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as file:
-            json.dump(report, file, indent=1)
+            json.dump(content, file, indent=1)
             file.write("\n")
         os.replace(temporary, path)
     except BaseException:
@@ -41,27 +41,33 @@ def _write_whole(path, report):
         raise
 
 
-def main():
-    args = options.parse()
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
-    if args.json and not os.access(os.path.dirname(os.path.abspath(args.json)), os.W_OK):
-        sys.exit(f"tools/yardstick: --json: cannot write {args.json}")
-    absent = {name: packages for name in args.learners if (packages := missing(name))}
-    learners = [name for name in args.learners if name not in absent]
-    jobs = _jobs(args, learners)
-    records, ended = runs.run_all(jobs, args.jobs)
-    done = [record for record in records if "error" not in record]
-    print(table.render(done, args.tasks, learners), flush=True)
-    if args.json:
-        _write_whole(args.json, {"ended": ended, "missing": absent, "runs": records})
+def _complain(records, absent, ended, jobs):
+    """Say what is missing from the table, and why."""
     for name, packages in absent.items():
         needed = ", ".join(packages)
-        print(f"- missing: {options.LEARNERS[name]}, which needs {needed}: tools/setup peers")
+        print(f"- not measured: {options.LEARNERS[name]}: needs {needed} (tools/setup peers)")
     for record in records:
         if "error" in record:
             print("{task} {learner} {seed} failed:\n{error}".format(**record), file=sys.stderr)
     if ended:
-        print(f"tools/yardstick: {ended}: {len(records)} of {len(jobs)} runs", file=sys.stderr)
+        print(f"tools/yardstick: {ended} after {len(records)} of {jobs} runs", file=sys.stderr)
+
+
+def main():
+    """Run the command line; returns the exit status."""
+    args = options.parse()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # treated as Ctrl-C
+    if args.json and not os.access(os.path.dirname(os.path.abspath(args.json)), os.W_OK):
+        sys.exit(f"tools/yardstick: --json: cannot write {args.json}")
+    absent = {name: packages for name in args.learners if (packages := LEARNERS[name].missing())}
+    learners = [name for name in args.learners if name not in absent]
+    jobs = _jobs(args, learners)
+    records, ended = runs.run_all(jobs, args.jobs)
+    done = [record for record in records if "error" not in record]
+    print(report.render(done, args.tasks, learners), flush=True)
+    if args.json:
+        _write_json(args.json, {"ended": ended, "missing": absent, "runs": records})
+    _complain(records, absent, ended, len(jobs))
     if ended == "interrupted":
         return 130
     return int(ended is not None or len(done) < len(records))
@@ -71,7 +77,7 @@ if __name__ == "__main__":
     try:
         status = main()
         sys.stdout.flush()
-    except BrokenPipeError:  # whoever read has seen enough
+    except BrokenPipeError:  # the reader is gone, as with `| head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = 1
     sys.exit(status)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The table, in Markdown: a row for each task and learner, what they mean, and each bar."""
+"""The table, in Markdown: a row for each task and learner, what the columns mean, and each bar."""
 
 import math
 import statistics
@@ -16,12 +16,19 @@ HEAD = (
     "fewest", "distracted", "seconds", "KB",
 )  # fmt: skip
 LEGEND = """\
-Medians over runs. Return: of an episode by the greedy policy at the end; optimal: the share of states
-where it does nothing but what is optimal; both are exact, over all states and distractors, but for
-CartPole. Reached, and in the worst run: interactions from which on the policy is as good as the task
-asks, whenever looked at. Leaves of the tree; of the policy that is made compact in the end, which keeps
-a return; and the fewest of any tree over the bits that is optimal everywhere. Distracted: runs that test
-a distractor. Seconds: of processor time. KB: of the agent, or of what it learns."""
+Figures are medians over runs.
+
+- return: of an episode of the greedy policy at the end; exact, except for CartPole
+- optimal: share of states in which the policy takes only optimal actions, whatever the distractors are
+- reached, worst: interactions after which the policy was good enough at every check (see the task); the
+  median and the worst run
+- leaves: of the tree; compacted: of the compacted policy; kept: the return of that policy; fewest: of
+  the smallest tree over the bits that is optimal everywhere
+- distracted: runs whose tree tests a distractor
+- seconds: of processor time; KB: memory of the agent, or of what another learner learns
+
+Tasks:
+"""
 
 
 def _number(value, form=",.0f"):
@@ -67,7 +74,7 @@ def _rows(task, learner, records):
 
 
 def _aligned(rows):
-    """Rows of words as a table; the first two columns lean to the left."""
+    """Rows of text as a table; the first two columns are aligned left."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:
@@ -98,7 +105,7 @@ def _bars(task, records):
 
 
 def _configuration(records):
-    """What our learner was told, of all that were used: but for what a task chooses, the same."""
+    """The configuration of rlvc: the fields that no task chooses, with every value that was used."""
     own = {"actions", "capacity", "seed", "discount"}
     values = {}
     for record in records:
@@ -109,15 +116,24 @@ def _configuration(records):
         return []
     fields = ", ".join(f"{name} {' or '.join(map(str, used))}" for name, used in values.items())
     return [
-        f"rlvc {rlvc.__version__}, in all tasks the defaults of rlvc.learn but for the discount and the "
-        "length of the run: a learning step every hundredth of it, at least 100 interactions; room for "
-        f"all interactions; {fields}.",
+        f"rlvc {rlvc.__version__} with the defaults of rlvc.learn in all tasks. A task sets the "
+        "discount, the seed and the number of interactions. A learning step follows each hundredth of "
+        f"them, at least 100; the memory holds them all. The rest: {fields}.",
         "",
     ]
 
 
+def _peers(learners):
+    lines = [
+        f"- {options.LEARNERS[name]}: {LEARNERS[name].about}"
+        for name in learners
+        if LEARNERS[name].about
+    ]
+    return ["Other learners:", "", *lines, ""] if lines else []
+
+
 def render(records, tasks, learners):
-    """The whole text, of the runs that ended."""
+    """The whole text, of the runs that are done."""
     rows, bars = [HEAD], []
     for name in tasks:
         for learner in learners:
@@ -131,16 +147,10 @@ def render(records, tasks, learners):
             *_aligned(rows),
             "",
             LEGEND,
-            "",
             *(_about(TASKS[name]()) for name in tasks),
             "",
-            *(
-                f"- {options.LEARNERS[name]}: {LEARNERS[name].about}"
-                for name in learners
-                if LEARNERS[name].about
-            ),
-            "",
+            *_peers(learners),
             *_configuration(records),
-            *bars,
+            *(["Bars:", "", *bars] if bars else []),
         ]
     )

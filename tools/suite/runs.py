@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs: one as a record, and many in processes of their own."""
+"""One run, as a record; and many runs, each in a process of its own."""
 
 import concurrent.futures
 import math
@@ -21,7 +21,7 @@ def _finite(value):
 
 
 def measure(task_name, learner, seed):
-    """One run, as a record for the report."""
+    """One run, as a record: a row of the JSON file."""
     task = TASKS[task_name]()
     looks, looked = [], 0.0
 
@@ -55,7 +55,7 @@ def measure(task_name, learner, seed):
 
 
 def _attempt(job):
-    """A run in a process of its own; if it fails the others go on."""
+    """A run in a process of its own. If it fails the others go on."""
     try:
         return measure(*job)
     except Exception:
@@ -67,11 +67,11 @@ def _prepare():
 
 
 def run_all(jobs, processes):
-    """The records of those jobs that ended, and why the others did not: None, or a word."""
+    """The records of the jobs that are done, and what ended the others: None if nothing did."""
     records, ended = [], None
     context = multiprocessing.get_context("spawn")
     pool = concurrent.futures.ProcessPoolExecutor(processes, context, _prepare)
-    heard = signal.signal(signal.SIGINT, signal.SIG_IGN)  # which the children inherit
+    heard = signal.signal(signal.SIGINT, signal.SIG_IGN)  # the children inherit this
     futures = [pool.submit(_attempt, job) for job in jobs]
     signal.signal(signal.SIGINT, heard)
     bar = tqdm.tqdm(total=len(jobs), unit=" runs", dynamic_ncols=True, disable=None)
@@ -85,7 +85,7 @@ def run_all(jobs, processes):
         for child in multiprocessing.active_children():
             child.terminate()
     except concurrent.futures.process.BrokenProcessPool:
-        ended = "a process of its own died"
+        ended = "a run's process died"
     pool.shutdown(wait=True, cancel_futures=True)
     bar.close()
     sys.stderr.flush()

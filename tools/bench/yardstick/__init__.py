@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""The yardstick: what is learnt from how many interactions, on tasks whose optimum is known."""

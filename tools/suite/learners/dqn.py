@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+"""Stable-Baselines3's DQN, with its defaults but the discount."""
+
+
+def learn(task, seed, check, checks=20):
+    """One run; see the head of this package."""
+    import torch
+    from stable_baselines3 import DQN
+    from stable_baselines3.common.callbacks import BaseCallback
+
+    torch.set_num_threads(1)
+    model = DQN("MlpPolicy", task.make(seed), gamma=task.discount, seed=seed, device="cpu")
+
+    class Checks(BaseCallback):
+        def _on_step(self):
+            if self.num_timesteps % (task.interactions // checks) == 0:
+                check(self.num_timesteps, lambda rows: model.predict(rows, deterministic=True)[0])
+            return True
+
+    model.learn(task.interactions, callback=Checks())
+    return {"bytes": sum(p.numel() * p.element_size() for p in model.q_net.parameters())}
