@@ -9,7 +9,8 @@
 
 #define WORD_BITS 64u
 
-/* Fetches memory that is wanted soon: in the order of their targets, samples lie all over the ring. */
+/* Fetches memory that is wanted soon: in the order of their targets, samples lie all over the
+ * ring. */
 #if defined(__GNUC__)
 #define FETCH(address) __builtin_prefetch(address)
 #else

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* The domain of local descriptors (sections 3 and 6.2).
  *
- * Distances stay squared. That of two float vectors is summed in eight lanes, number i in lane i mod 8,
- * which compilers make vector code of without leave to reorder; lane by lane it only grows, and so does
- * the rounded sum of the lanes. Hence a sum that is above the limit after a part of the numbers is above
- * it after all of them, and to stop there changes no answer. Int8 vectors have distances of at most
- * 256 * 255^2 < 2^24, which a float holds exactly.
+ * Distances stay squared. That of two float vectors is summed in eight lanes, number i in lane i
+ * mod 8, which compilers make vector code of without leave to reorder; lane by lane it only grows,
+ * and so does the rounded sum of the lanes. Hence a sum that is above the limit after a part of the
+ * numbers is above it after all of them, and to stop there changes no answer. Int8 vectors have
+ * distances of at most 256 * 255^2 < 2^24, which a float holds exactly.
  *
- * The margin rule. A feature is worth most if its radius passes between percepts, not through a crowd of
- * them: the same thing seen from elsewhere, or in other light, is a little nearer or farther. So the
- * distances of the class's percepts that lie within [tau / m, m tau] are counted in BINS equal intervals,
- * and the radius is put into the longest row of empty ones which has a percept on both sides. It is put near
- * the far end: what was never seen of the thing itself tends to be farther off than what was. */
+ * The margin rule. A feature is worth most if its radius passes between percepts, not through a
+ * crowd of them: the same thing seen from elsewhere, or in other light, is a little nearer or
+ * farther. So the distances of the class's percepts that lie within [tau / m, m tau] are counted in
+ * BINS equal intervals, and the radius is put into the longest row of empty ones which has a
+ * percept on both sides. It is put near the far end: what was never seen of the thing itself tends
+ * to be farther off than what was. */
 #include "rlvc/descriptors.h"
 
 #include <string.h>
@@ -85,8 +86,8 @@ static float between_floats(const float *a, const float *b, uint32_t n, float li
     return sum_of(lane);
 }
 
-/* Likewise. Chunks are of a length that is not known beforehand, but is a multiple of 16: of that compilers
- * make vector code, while a loop of 16 would be unrolled. */
+/* Likewise. Chunks are of a length that is not known beforehand, but is a multiple of 16: of that
+ * compilers make vector code, while a loop of 16 would be unrolled. */
 static inline int32_t between_bytes(const int8_t *a, const int16_t *b, uint32_t n, int32_t limit) {
     const uint32_t even = n & ~15u;
     int32_t sum = 0;
@@ -127,7 +128,8 @@ static float after(float number) {
     return number;
 }
 
-/* The least whole number that is not below a squared distance; none of int8 vectors reaches the highest. */
+/* The least whole number that is not below a squared distance; none of int8 vectors reaches the
+ * highest. */
 static int32_t whole_of(float squared) {
     if (!(squared < INT8_FARTHEST))
         return (int32_t)INT8_FARTHEST;
@@ -135,8 +137,8 @@ static int32_t whole_of(float squared) {
     return below + ((float)below < squared);
 }
 
-/* The least squared distance that is below the limit, else the limit. The first that is below `enough` will
- * do. *point, where it is. */
+/* The least squared distance that is below the limit, else the limit. The first that is below
+ * `enough` will do. *point, where it is. */
 static int32_t nearest_bytes(const int8_t *vector, uint32_t count, uint32_t n,
                              const int16_t *wanted, int32_t enough, int32_t limit,
                              uint32_t *point) {
@@ -215,9 +217,9 @@ static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32
 
 /* ------------------------------------------------------------------ the margin rule */
 
-/* How the class's percepts lie about a vector, as far as they have been looked at. A row of empty bins can
- * only shrink. So bins count only from the first to the last row that is still longer than what is asked
- * for: of percepts beyond, it need not be known how far they are. */
+/* How the class's percepts lie about a vector, as far as they have been looked at. A row of empty
+ * bins can only shrink. So bins count only from the first to the last row that is still longer than
+ * what is asked for: of percepts beyond, it need not be known how far they are. */
 typedef struct crowd {
     float edge[BINS + 1u]; /* squared distances between which the bins lie */
     uint8_t taken[BINS];   /* is there a percept in the bin? */
@@ -373,8 +375,8 @@ static int is_among(const unsigned char *features, uint32_t count, uint32_t byte
     return 0;
 }
 
-/* Puts vector `pick` of a percept, counted round, into the record behind the block's `written` features.
- * 0: it was not to be had, or is among them. */
+/* Puts vector `pick` of a percept, counted round, into the record behind the block's `written`
+ * features. 0: it was not to be had, or is among them. */
 static int put(const rlvc_descriptors *d, const void *percept, uint32_t pick,
                unsigned char *features, uint32_t written, unsigned char *record) {
     const uint32_t count = count_of(percept);
@@ -416,8 +418,8 @@ static int draw(const rlvc_descriptors *d, const rlvc_samples *samples, uint32_t
     return 0;
 }
 
-/* Candidate i comes from the samples of one target: of the i-th of them round and round, or of every so
- * manieth if there are more targets than candidates. */
+/* Candidate i comes from the samples of one target: of the i-th of them round and round, or of
+ * every so manieth if there are more targets than candidates. */
 static int candidates(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t room,
                       void *features, uint32_t *written) {
     const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;

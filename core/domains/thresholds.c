@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* The domain of thresholds: real numbers as percepts.
  *
- * What is compared with a cutpoint is the value v of a percept along a direction: x[i], or x[i] + w x[j].
- * Candidates are numbered direction by direction, and within one by rank: of n samples and m candidates,
- * candidate b puts its cutpoint between the value v of rank b n / m (from 0) and the least value above v. It
- * has none if v is that of the candidate before it, or the highest. With m = n these are all midpoints
- * between neighbours, and exact search is nothing else.
+ * What is compared with a cutpoint is the value v of a percept along a direction: x[i], or x[i] + w
+ * x[j]. Candidates are numbered direction by direction, and within one by rank: of n samples and m
+ * candidates, candidate b puts its cutpoint between the value v of rank b n / m (from 0) and the
+ * least value above v. It has none if v is that of the candidate before it, or the highest. With m
+ * = n these are all midpoints between neighbours, and exact search is nothing else.
  *
- * A value's key is its bits made to order as the value does. The value of a rank is found by its key, a
- * digit of eight bits at a time from the highest: one pass counts the digits of the keys that begin as those
- * found so far, and the next digit is where the sum of the counts passes the rank. So nothing is sorted and
- * no memory needed but the counts. */
+ * A value's key is its bits made to order as the value does. The value of a rank is found by its
+ * key, a digit of eight bits at a time from the highest: one pass counts the digits of the keys
+ * that begin as those found so far, and the next digit is where the sum of the counts passes the
+ * rank. So nothing is sorted and no memory needed but the counts. */
 #include "rlvc/thresholds.h"
 
 #include <string.h>
@@ -124,8 +124,8 @@ static float spread_of(const rlvc_samples *samples, uint32_t component) {
     return value_of_key(high) - value_of_key(low);
 }
 
-/* Makes direction `number`. One whose slope would be no number, since a component hardly varies, is not
- * usable. Fails if a percept has no value along it. */
+/* Makes direction `number`. One whose slope would be no number, since a component hardly varies, is
+ * not usable. Fails if a percept has no value along it. */
 static int aim(const rlvc_thresholds *t, const rlvc_samples *samples, uint32_t number,
                direction *along) {
     static const float factor[SLOPES] = {1.0f, -1.0f, 2.0f, -2.0f, 0.5f, -0.5f};

@@ -26,54 +26,60 @@ typedef struct rlvc_agent rlvc_agent;
 #define RLVC_REWARD_MAX 1e12f
 
 /* config.criterion: which classes are aliased (section 4.2.2). */
-#define RLVC_CRITERION_RETURNS 0u  /* truncated discounted returns under exploitation (definitions 1
-                                      and 2): the published one; each step k needs a fresh database */
-#define RLVC_CRITERION_RESIDUAL 1u /* one-step returns r + discount * V(class of s') per class and
-                                      action, on one growing database: needs far fewer interactions */
+/* truncated discounted returns under exploitation (definitions 1 and 2): the published one; each
+ * step k needs a fresh database */
+#define RLVC_CRITERION_RETURNS 0u
+/* one-step returns r + discount * V(class of s') per class and action, on one growing database:
+ * needs far fewer interactions */
+#define RLVC_CRITERION_RESIDUAL 1u
 
 /* config.score: how well a feature explains a partition (section 4.2.3). */
 #define RLVC_SCORE_GAIN 0u /* information gain */
 #define RLVC_SCORE_GINI 1u /* decrease of Gini impurity */
 #define RLVC_SCORE_CHI2 2u /* Pearson's chi-square statistic */
-#define RLVC_SCORE_RANKS 3u /* no partition, but the rank-sum test of the targets with the feature
-                               against those without it (Wilcoxon 1945, Mann and Whitney 1947): one
-                               test for a feature, not one for each cutpoint. It sees targets that
-                               are shifted, not others. Not for a domain with its own oracle;
-                               capacity below 2^21 */
+/* no partition, but the rank-sum test of the targets with the feature against those without it
+ * (Wilcoxon 1945, Mann and Whitney 1947): one test for a feature, not one for each cutpoint. It
+ * sees targets that are shifted, not others. Not for a domain with its own oracle; capacity
+ * below 2^21 */
+#define RLVC_SCORE_RANKS 3u
 
 /* config.solver: where the values of the classes come from (sections 2.3 and 7). */
 #define RLVC_SOLVER_VALUE_ITERATION 0u  /* batch, over the stored interactions */
 #define RLVC_SOLVER_POLICY_ITERATION 1u /* batch, likewise */
-#define RLVC_SOLVER_Q_LEARNING 2u       /* incremental: rlvc_observe updates Q, rlvc_learn only splits */
-#define RLVC_SOLVER_SARSA 3u            /* likewise, on-policy */
-#define RLVC_SOLVER_PRIORITIZED 4u      /* batch: prioritized sweeping, to the same values as value
-                                           iteration with fewer backups where there are many classes and
-                                           several interactions to a transition */
+/* incremental: rlvc_observe updates Q, rlvc_learn only splits */
+#define RLVC_SOLVER_Q_LEARNING 2u
+#define RLVC_SOLVER_SARSA 3u /* likewise, on-policy */
+/* batch: prioritized sweeping, to the same values as value iteration with fewer backups where
+ * there are many classes and several interactions to a transition */
+#define RLVC_SOLVER_PRIORITIZED 4u
 
 /* config.untried: what a class-action pair without interactions is worth to the batch solvers. */
 #define RLVC_UNTRIED_EXCLUDED 0u   /* it does not count in the maximum over actions */
 #define RLVC_UNTRIED_OPTIMISTIC 1u /* config.optimistic_value */
 
 /* config.explore: which action is tried where the greedy one is not taken. */
-#define RLVC_EXPLORE_UNIFORM 0u  /* any, all alike, as published */
-#define RLVC_EXPLORE_DIRECTED 1u /* one in two leads to the nearest class-action pair that was little tried, if
-                                    there is one; the other is drawn with preference for what was seldom tried in
-                                    the class, and for the action before (SPEC.md) */
+#define RLVC_EXPLORE_UNIFORM 0u /* any, all alike, as published */
+/* one in two leads to the nearest class-action pair that was little tried, if there is one; the
+ * other is drawn with preference for what was seldom tried in the class, and for the action
+ * before (SPEC.md) */
+#define RLVC_EXPLORE_DIRECTED 1u
 
 /* Chosen once, copied by rlvc_agent_init. Start from rlvc_config_default. */
 typedef struct rlvc_config {
     uint32_t actions;          /* how many actions, [1, 255]; no default */
-    uint32_t capacity;         /* interactions the ring holds, [1, 2^31 - 1]; when it is full the oldest
-                                  leaves (between two episodes it may hold one more). A truncated or torn episode takes the room of one more.
-                                  Default 2000 */
+    uint32_t capacity;         /* interactions the ring holds, [1, 2^31 - 1]; when it is full the
+                                  oldest leaves (between two episodes it may hold one more). A
+                                  truncated or torn episode takes the room of one more. Default
+                                  2000 */
     uint32_t classes;          /* classes the tree may grow to, [1, 65535]. Default 64 */
     uint32_t features_at_once; /* candidate features whose bit columns are held in memory together,
                                   [1, 64]; fewer cost time instead. Default 64, or the domain's
                                   features_max if that is known and less */
-    uint32_t min_samples;      /* a class with fewer samples than this (of the actions whose targets differ)
-                                  is not tested for a split, [2, 2^31 - 1]. Default 8 */
-    uint32_t max_sweeps;       /* sweeps after which a batch solver stops unconverged, [1, 2^31 - 1].
-                                  Default 10,000 */
+    uint32_t min_samples;      /* a class with fewer samples than this (of the actions whose
+                                  targets differ) is not tested for a split, [2, 2^31 - 1].
+                                  Default 8 */
+    uint32_t max_sweeps;       /* sweeps after which a batch solver stops unconverged, [1, 2^31 -
+                                  1]. Default 10,000 */
     uint32_t seed;             /* of the exploration; any value. Default 1 */
     uint8_t criterion;         /* RLVC_CRITERION_*. Default RLVC_CRITERION_RESIDUAL */
     uint8_t score;             /* RLVC_SCORE_*. Default RLVC_SCORE_GAIN */
@@ -82,50 +88,54 @@ typedef struct rlvc_config {
     uint8_t continuing;        /* 1: the window of definition 1 runs on through a terminated
                                   interaction into the next episode, as in the paper's teleporting
                                   maze; 0: it ends there. Default 0 */
-    uint8_t successors;        /* 1: a class none of whose targets tell anything apart is aliased, too, if
-                                  what follows the same action differs, even while all rewards are
-                                  alike (residual criterion only; the candidates of a class must fit
-                                  into features_at_once; not with an own oracle). Default 1 for bits, if
-                                  there are no more than 64, else 0 */
+    uint8_t successors;        /* 1: a class none of whose targets tell anything apart is
+                                  aliased, too, if what follows the same action differs, even
+                                  while all rewards are alike (residual criterion only; the
+                                  candidates of a class must fit into features_at_once; not with
+                                  an own oracle). Default 1 for bits, if there are no more than
+                                  64, else 0 */
     uint8_t explore;           /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
-    uint8_t gate;              /* 1: the value gate. A class is split by its targets only if that raises the
-                                  estimated return: if on one side of the split another action than the
-                                  greedy one of the class is worth more, by more than twice the standard
-                                  errors of both together and twice the tolerance; an action with fewer than
-                                  min_samples there does not count (SPEC.md). A feature that does not is set
-                                  aside for the next best. Splits by what follows (successors) raise no
-                                  return by themselves and are left alone. So the tree tells no situations
-                                  apart that are worth different amounts and ask for the same action; but
-                                  what only several tests together make useful is not found, and without
-                                  successors learning can stop before it begins (DESIGN.md). Residual
-                                  criterion only; not with an own oracle. Default 0 */
+    uint8_t gate;              /* 1: the value gate. A class is split by its targets only if that
+                                  raises the estimated return: if on one side of the split
+                                  another action than the greedy one of the class is worth more,
+                                  by more than twice the standard errors of both together and
+                                  twice the tolerance; an action with fewer than min_samples
+                                  there does not count (SPEC.md). A feature that does not is set
+                                  aside for the next best. Splits by what follows (successors)
+                                  raise no return by themselves and are left alone. So the tree
+                                  tells no situations apart that are worth different amounts and
+                                  ask for the same action; but what only several tests together
+                                  make useful is not found, and without successors learning can
+                                  stop before it begins (DESIGN.md). Residual criterion only; not
+                                  with an own oracle. Default 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
     float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
-    float alpha;               /* the probability that the tree ever takes up a feature while there is
-                                  nothing to learn, at most: all learning steps, and the tests tried in
-                                  them, share it (SPEC.md), and a split by a feature that is new to the
-                                  tree must pass at its share, (0, 1]. It assumes that the samples of
-                                  one action are independent of each other, and nothing about the looks
-                                  at the growing database. Once the tree has classes, it is the same
-                                  probability for each of them. Default 0.01 */
-    float alpha_known;         /* a split by a feature that the tree holds already, and that has so proved
-                                  to be no noise, must only pass at this level at each look, (0, 1]; below
-                                  alpha's share it has no effect. Default 1: fewer such splits by chance
-                                  than one a look are expected */
-    float tolerance;           /* in units of reward, (0, RLVC_REWARD_MAX]: a batch solver that ends by
-                                  itself leaves values within this of the fixed point, plus what
-                                  binary32 costs: at most 1e-6 max|V| / (1 - discount). (Policy
-                                  iteration: of the fixed point of a policy that no other action betters
-                                  by more than this. Discount 1: just that its last sweep changed no
-                                  value by more.) Targets nearer than twice this count as equal under
-                                  the residual criterion. Default 0.01 */
+    float alpha;               /* the probability that the tree ever takes up a feature while
+                                  there is nothing to learn, at most: all learning steps, and the
+                                  tests tried in them, share it (SPEC.md), and a split by a
+                                  feature that is new to the tree must pass at its share, (0, 1].
+                                  It assumes that the samples of one action are independent of
+                                  each other, and nothing about the looks at the growing
+                                  database. Once the tree has classes, it is the same probability
+                                  for each of them. Default 0.01 */
+    float alpha_known;         /* a split by a feature that the tree holds already, and that has
+                                  so proved to be no noise, must only pass at this level at each
+                                  look, (0, 1]; below alpha's share it has no effect. Default 1:
+                                  fewer such splits by chance than one a look are expected */
+    float tolerance;           /* in units of reward, (0, RLVC_REWARD_MAX]: a batch solver that
+                                  ends by itself leaves values within this of the fixed point,
+                                  plus what binary32 costs: at most 1e-6 max|V| / (1 - discount).
+                                  (Policy iteration: of the fixed point of a policy that no other
+                                  action betters by more than this. Discount 1: just that its
+                                  last sweep changed no value by more.) Targets nearer than twice
+                                  this count as equal under the residual criterion. Default 0.01 */
     float learning_rate;       /* of the incremental solvers, (0, 1]. Default 0.1 */
     float optimistic_value;    /* for RLVC_UNTRIED_OPTIMISTIC, in units of return,
                                   +-RLVC_REWARD_MAX. Default 0 */
 } rlvc_config;
 
-/* Fills *config with the defaults for a domain and a number of actions. The domain is only looked at
- * for features_max; nothing is checked. O(1).
+/* Fills *config with the defaults for a domain and a number of actions. The domain is only looked
+ * at for features_max; nothing is checked. O(1).
  * @return RLVC_OK. */
 RLVC_API rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain,
                                          uint32_t actions);
@@ -138,15 +148,18 @@ RLVC_API rlvc_status rlvc_config_check(const rlvc_config *config, const rlvc_dom
                                        const char **why);
 
 /* The exact size of an agent's block on this target. O(1).
- * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if no size_t holds the size: *bytes is then 0. */
+ * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if no size_t holds the size: *bytes is then 0.
+ */
 RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain,
                                      size_t *bytes);
 
 /* An upper bound of rlvc_agent_size as a constant expression, for static arrays; at most
  * RLVC_AGENT_FIXED_BYTES above it. */
 #define RLVC_AGENT_FIXED_BYTES 1024u
+/* The formatter takes a parenthesis before an operator for a cast. */
+/* clang-format off */
 #define RLVC_ROUND_UP_8(n) (((size_t)(n) + 7u) / 8u * 8u)
-#define RLVC_AGENT_BYTES(actions, capacity, classes, percept_bytes, feature_bytes,                    \
+#define RLVC_AGENT_BYTES(actions, capacity, classes, percept_bytes, feature_bytes,                 \
                          features_at_once)                                                         \
     (RLVC_AGENT_FIXED_BYTES + RLVC_REPLAY_BYTES(capacity, percept_bytes) +                         \
      RLVC_TREE_BYTES(classes, feature_bytes) + RLVC_VALUES_BYTES(classes, actions) +               \
@@ -176,15 +189,17 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
      RLVC_ROUND_UP_8((size_t)(features_at_once) * (feature_bytes)) +                               \
      RLVC_ROUND_UP_8(feature_bytes) * 2u + (size_t)(actions) * 16u +                               \
      (size_t)(features_at_once) * 16u)
-#define RLVC_SEARCH_WORDS(actions, capacity) (((size_t)(capacity) + 1u + 63u * (size_t)(actions)) / 64u)
+#define RLVC_SEARCH_WORDS(actions, capacity)                                                       \
+    (((size_t)(capacity) + 1u + 63u * (size_t)(actions)) / 64u)
 #define RLVC_SEARCH_COLUMN_BYTES(actions, capacity, features_at_once)                              \
     (((RLVC_SEARCH_WORDS(actions, capacity) | 1u) * (features_at_once) * 8u) > 2048u               \
          ? ((RLVC_SEARCH_WORDS(actions, capacity) | 1u) * (features_at_once) * 8u)                 \
          : 2048u)
+/* clang-format on */
 
 /* Makes a new agent in the caller's block: one class that holds every percept, no interaction, step
- * k = 0. The config and the domain are copied; the block belongs to the agent until the caller takes
- * it back (there is nothing to free). It must not be moved. O(classes * actions).
+ * k = 0. The config and the domain are copied; the block belongs to the agent until the caller
+ * takes it back (there is nothing to free). It must not be moved. O(classes * actions).
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_agent_size or more
  * @return RLVC_OK; RLVC_E_CONFIG; RLVC_E_MEMORY: the block is untouched and *agent is null. */
 RLVC_API rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain,
@@ -200,7 +215,7 @@ typedef struct rlvc_choice {
 
 /* How an interaction ended. */
 #define RLVC_GOES_ON 0u    /* s' follows, and is the next current percept */
-#define RLVC_TERMINATED 1u /* the episode is over by its own rules: nothing is to be had after it */
+#define RLVC_TERMINATED 1u /* the episode is over by its own rules: nothing comes after it */
 #define RLVC_TRUNCATED 2u  /* cut short from outside (a time limit): s' is still worth something */
 
 /* Starts an episode at a percept, which is copied. If one was under way, it is torn here, as if its
@@ -208,15 +223,15 @@ typedef struct rlvc_choice {
  * @return RLVC_OK; RLVC_E_BUSY. */
 RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
 
-/* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon a
- * run of k + 1 greedy actions begins (of one under the residual criterion), as section 4.2.1 asks;
- * otherwise one action explores, as config.explore says. Each call is a new decision, of which directed exploration
- * takes note. O(actions), and O(depth of the tree) calls of exhibits().
+/* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon
+ * a run of k + 1 greedy actions begins (of one under the residual criterion), as section 4.2.1
+ * asks; otherwise one action explores, as config.explore says. Each call is a new decision, of
+ * which directed exploration takes note. O(actions), and O(depth of the tree) calls of exhibits().
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_CALLBACK. */
 RLVC_API rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice);
 
-/* Stores the interaction <s, a, r, s', e> whose s is the current percept. The choice need not come from
- * rlvc_act. O(percept_bytes); with an incremental solver also O(depth) calls of exhibits().
+/* Stores the interaction <s, a, r, s', e> whose s is the current percept. The choice need not come
+ * from rlvc_act. O(percept_bytes); with an incremental solver also O(depth) calls of exhibits().
  * @param next s', copied; optional (not looked at) if `end` is RLVC_TERMINATED
  * @param end  RLVC_GOES_ON, or RLVC_TERMINATED or RLVC_TRUNCATED: then call rlvc_begin next
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_RANGE: action, exploited or end;
@@ -237,32 +252,33 @@ typedef struct rlvc_progress {
     uint8_t reserved[3];
 } rlvc_progress;
 
-/* One step of section 4.2.1 (parts 3a to 3c) on the interactions stored when it begins: refines every
- * aliased class until none is left, then solves for the values and increments k. Call it until
- * progress->done; what it makes does not depend on the budgets. Interactions observed in between wait
- * for the next step. Under the returns criterion the end of a step empties the ring, since the next
- * needs a fresh database.
+/* One step of section 4.2.1 (parts 3a to 3c) on the interactions stored when it begins: refines
+ * every aliased class until none is left, then solves for the values and increments k. Call it
+ * until progress->done; what it makes does not depend on the budgets. Interactions observed in
+ * between wait for the next step. Under the returns criterion the end of a step empties the ring,
+ * since the next needs a fresh database.
  *
  * The unit of work is one sample looked at (SPEC.md says what each part of the method is charged);
  * RLVC_BUDGET_UNBOUNDED does the whole step. A tree that is full is no error: rlvc_stats counts the
  * splits refused.
  * @param budget [RLVC_BUDGET_MIN, UINT32_MAX]
  * @return RLVC_OK; RLVC_E_RANGE: budget; RLVC_E_CALLBACK: what was done before the callback failed
- *         stands, as though the budget had ended there, and the next call tries that callback again;
- *         *progress tells. */
+ *         stands, as though the budget had ended there, and the next call tries that callback
+ * again; *progress tells. */
 RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress);
 
-/* Takes tests out of the tree that the stored interactions do not support (section 7): from the newest to the
- * oldest a split is undone if its two sides are single classes that agree. These become one class with
- * the mean of their Q, weighted by the interactions behind each; classes and splits are numbered
- * anew, in the order they had. Two classes agree if their greedy action is the same and every action was
- * tried in both or in neither, with Q that differ by no more than the tolerance, or than so many standard
- * errors of the difference where both have min_samples in the ring. So no greedy action changes, and a test
- * stays that has one below it which stays.
+/* Takes tests out of the tree that the stored interactions do not support (section 7): from the
+ * newest to the oldest a split is undone if its two sides are single classes that agree. These
+ * become one class with the mean of their Q, weighted by the interactions behind each; classes and
+ * splits are numbered anew, in the order they had. Two classes agree if their greedy action is the
+ * same and every action was tried in both or in neither, with Q that differ by no more than the
+ * tolerance, or than so many standard errors of the difference where both have min_samples in the
+ * ring. So no greedy action changes, and a test stays that has one below it which stays.
  *
- * It is for before a tree is read or deployed, and for a world that has changed: the next rlvc_learn tests the
- * classes again, and splits again what it finds to differ. The standard errors are those of independent samples,
- * which those of one trajectory are not. O(capacity + classes * (actions + depth)).
+ * It is for before a tree is read or deployed, and for a world that has changed: the next
+ * rlvc_learn tests the classes again, and splits again what it finds to differ. The standard errors
+ * are those of independent samples, which those of one trajectory are not. O(capacity + classes *
+ * (actions + depth)).
  * @param tolerance  in units of return, [0, RLVC_REWARD_MAX]
  * @param deviations [0, 1000]; 0: only the tolerance counts
  * @param undone     how many splits were undone
@@ -272,8 +288,9 @@ RLVC_API rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviat
 
 /* ------------------------------------------------------------------ asking */
 
-/* The class of a percept and its greedy action: the learnt policy. Changes nothing. While a learning
- * step is under way the actions are those of the last solution. O(depth) calls of exhibits().
+/* The class of a percept and its greedy action: the learnt policy. Changes nothing. While a
+ * learning step is under way the actions are those of the last solution. O(depth) calls of
+ * exhibits().
  * @param class_id, action each optional
  * @return RLVC_OK; RLVC_E_CALLBACK: *class_id and *action unchanged. */
 RLVC_API rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
@@ -288,15 +305,15 @@ typedef struct rlvc_statistics {
     uint32_t last_split;   /* the step k at which the newest split was made; 0 if none */
     uint32_t refused;      /* splits that proved real but found the tree full, since init */
     uint32_t sweeps;       /* of the last solution */
-    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep; prioritized:
-                              the most by which any V might still change at once */
+    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep;
+                              prioritized: the most by which any V might still change at once */
 } rlvc_statistics;
 
 /* @return RLVC_OK. O(splits). */
 RLVC_API rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics);
 
-/* Q(class, action) of the last solution, and how many interactions it rests on (0: untried, and q is
- * what config.untried makes of it). O(1).
+/* Q(class, action) of the last solution, and how many interactions it rests on (0: untried, and q
+ * is what config.untried makes of it). O(1).
  * @param q, samples each optional
  * @return RLVC_OK; RLVC_E_RANGE: class_id or action. */
 RLVC_API rlvc_status rlvc_q(const rlvc_agent *agent, uint32_t class_id, uint32_t action, float *q,
@@ -308,20 +325,22 @@ RLVC_API rlvc_status rlvc_q(const rlvc_agent *agent, uint32_t class_id, uint32_t
 RLVC_API rlvc_status rlvc_value(const rlvc_agent *agent, uint32_t class_id, float *value,
                                 uint32_t *action);
 
-/* One split of the tree, in the order in which they were made: split 0 is the root. Split j of class c
- * leaves the percepts without the feature in class c, and gives those with it the new class j + 1. */
+/* One split of the tree, in the order in which they were made: split 0 is the root. Split j of
+ * class c leaves the percepts without the feature in class c, and gives those with it the new class
+ * j + 1. */
 typedef struct rlvc_split {
-    uint32_t class_id;  /* the class that was split */
-    uint32_t step;      /* k at that time */
-    uint32_t action;    /* the action whose targets betrayed the aliasing, [0, actions), or `actions` if
-                           those of all actions did together, or `actions` + 1 if what followed them
-                           did (config.successors) */
-    uint32_t samples;   /* of that class and action, or of the class */
-    float log_tests;    /* natural logarithm of the number of tests that log_p is corrected by */
-    float score;        /* of the split, as config.score measures it (together: the mean over the
-                           samples; of chi-square and ranks too; by what followed: always of chi-square) */
-    float log_p;        /* natural logarithm of the p-value, corrected by the number of tests in this
-                           class, but not by alpha's sharing */
+    uint32_t class_id; /* the class that was split */
+    uint32_t step;     /* k at that time */
+    uint32_t action;   /* the action whose targets betrayed the aliasing, [0, actions), or
+                          `actions` if those of all actions did together, or `actions` + 1 if
+                          what followed them did (config.successors) */
+    uint32_t samples;  /* of that class and action, or of the class */
+    float log_tests;   /* natural logarithm of the number of tests that log_p is corrected by */
+    float score;       /* of the split, as config.score measures it (together: the mean over the
+                          samples; of chi-square and ranks too; by what followed: always of
+                          chi-square) */
+    float log_p;       /* natural logarithm of the p-value, corrected by the number of tests in
+                          this class, but not by alpha's sharing */
 } rlvc_split;
 
 /* @param split, feature each optional; feature gets feature_bytes
@@ -337,8 +356,8 @@ typedef int (*rlvc_write)(void *ctx, const char *text, size_t bytes);
 #define RLVC_PRINT_JSON 2u /* one object; SPEC.md gives its form */
 
 /* Prints the tree with the action, value and numbers of each class. O(nodes * depth).
- * @return RLVC_OK; RLVC_E_RANGE: format; RLVC_E_CALLBACK: a write, or the domain's name(), failed; the
- *         text ends where it did. */
+ * @return RLVC_OK; RLVC_E_RANGE: format; RLVC_E_CALLBACK: a write, or the domain's name(), failed;
+ * the text ends where it did. */
 RLVC_API rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
 
 /* Checks every invariant of the agent's memory (SPEC.md lists them): for tests, and for whoever

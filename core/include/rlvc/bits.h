@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The ready-made domain of bits (section 6.1): a percept is a string of bits, a feature is the number
- * of a bit, and a percept exhibits the feature if that bit is 1. */
+/* The ready-made domain of bits (section 6.1): a percept is a string of bits, a feature is the
+ * number of a bit, and a percept exhibits the feature if that bit is 1. */
 #ifndef RLVC_BITS_H
 #define RLVC_BITS_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The ready-made domain of local descriptors (sections 3 and 6.2): a percept is the vectors found at a
- * picture's interest points, a feature is one vector with a radius, and a percept exhibits the feature if
- * the nearest of its vectors is at most the radius away (Euclid's distance). */
+/* The ready-made domain of local descriptors (sections 3 and 6.2): a percept is the vectors found
+ * at a picture's interest points, a feature is one vector with a radius, and a percept exhibits the
+ * feature if the nearest of its vectors is at most the radius away (Euclid's distance). */
 #ifndef RLVC_DESCRIPTORS_H
 #define RLVC_DESCRIPTORS_H
 
@@ -21,21 +21,22 @@ extern "C" {
 #define RLVC_DESCRIPTORS_CANDIDATES_MAX 65535u
 #define RLVC_DESCRIPTORS_DRAWS_MAX 64u
 
-/* What percepts and features are, and which features are looked at. The caller's, who keeps it in place
- * and unchanged for as long as an agent uses the domain. */
+/* What percepts and features are, and which features are looked at. The caller's, who keeps it in
+ * place and unchanged for as long as an agent uses the domain. */
 typedef struct rlvc_descriptors {
     uint32_t points;     /* P: the most vectors of a percept, [1, RLVC_DESCRIPTORS_POINTS_MAX] */
     uint32_t dimensions; /* D: numbers of a vector, [1, RLVC_DESCRIPTORS_DIMENSIONS_MAX] */
     uint32_t candidates; /* the most features looked at for one class,
                             [1, RLVC_DESCRIPTORS_CANDIDATES_MAX]. Default 64 */
-    uint32_t draws;      /* a candidate is the one that the margin rule likes best of so many vectors
-                            drawn from the class's percepts, [1, RLVC_DESCRIPTORS_DRAWS_MAX]. Of no
-                            meaning without that rule. Default 8 */
+    uint32_t draws;      /* a candidate is the one that the margin rule likes best of so many
+                            vectors drawn from the class's percepts, [1,
+                            RLVC_DESCRIPTORS_DRAWS_MAX]. Of no meaning without that rule. Default
+                            8 */
     float radius;        /* tau, in units of the percept's numbers, (0, 1e15] */
-    float margin;        /* m, [1, 16]. 1: every feature has the radius tau. Else the margin rule: each
-                            has a radius of its own in [tau / m, m tau], in the widest gap that the
-                            class's percepts leave there, and is refused if that is less than a ninth of
-                            the interval. Default 1.8 */
+    float margin;        /* m, [1, 16]. 1: every feature has the radius tau. Else the margin
+                            rule: each has a radius of its own in [tau / m, m tau], in the widest
+                            gap that the class's percepts leave there, and is refused if that is
+                            less than a ninth of the interval. Default 1.8 */
     uint8_t form;        /* RLVC_DESCRIPTORS_* */
     uint8_t reserved[3]; /* 0 */
 } rlvc_descriptors;
@@ -44,13 +45,13 @@ typedef struct rlvc_descriptors {
 #define RLVC_DESCRIPTORS_VECTOR_BYTES(dimensions, form)                                            \
     ((form) == RLVC_DESCRIPTORS_INT8 ? (uint32_t)(dimensions) : 4u * (uint32_t)(dimensions))
 
-/* Bytes of a percept: uint32_t count, in [0, P]; P vectors, of which the first `count` mean something;
- * then up to a multiple of 4. */
+/* Bytes of a percept: uint32_t count, in [0, P]; P vectors, of which the first `count` mean
+ * something; then up to a multiple of 4. */
 #define RLVC_DESCRIPTORS_PERCEPT_BYTES(points, dimensions, form)                                   \
     (4u + (RLVC_DESCRIPTORS_VECTOR_BYTES(dimensions, form) * (uint32_t)(points) + 3u) / 4u * 4u)
 
-/* Bytes of a feature: float radius, the vector, then zeros up to a multiple of 4. A negative radius is
- * that of a candidate that was refused: no percept exhibits it. */
+/* Bytes of a feature: float radius, the vector, then zeros up to a multiple of 4. A negative radius
+ * is that of a candidate that was refused: no percept exhibits it. */
 #define RLVC_DESCRIPTORS_FEATURE_BYTES(dimensions, form)                                           \
     (4u + (RLVC_DESCRIPTORS_VECTOR_BYTES(dimensions, form) + 3u) / 4u * 4u)
 
@@ -62,11 +63,11 @@ RLVC_API rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uin
 /* Makes *domain the domain of such percepts, with *descriptors as its ctx. Its callbacks fail for a
  * percept whose count is above P, and for nothing else.
  *
- * Detecting costs O(P D) for each percept and feature, at most. The vectors that candidates come from
- * are drawn from all targets alike, so that a rare one is not missed; without repetition among those
- * of a call. Under the margin rule candidates() measures each vector drawn against up to
- * 512 of the class's percepts, evenly chosen: at most O(512 P D) for each of room * draws vectors, in one
- * call.
+ * Detecting costs O(P D) for each percept and feature, at most. The vectors that candidates come
+ * from are drawn from all targets alike, so that a rare one is not missed; without repetition among
+ * those of a call. Under the margin rule candidates() measures each vector drawn against up to 512
+ * of the class's percepts, evenly chosen: at most O(512 P D) for each of room * draws vectors, in
+ * one call.
  *
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain);
@@ -74,12 +75,14 @@ RLVC_API rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc
 /* The radius of a feature. O(1). */
 RLVC_API float rlvc_descriptors_radius(const void *feature);
 
-/* Which vector of a percept is the nearest to that of a feature (of equals the first), and how far it is,
- * squared. For people, who want to see where a feature was found: acting and learning need less. O(P D).
+/* Which vector of a percept is the nearest to that of a feature (of equals the first), and how far
+ * it is, squared. For people, who want to see where a feature was found: acting and learning need
+ * less. O(P D).
  * @param point, squared each optional
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: the percept has no vector, or a count above P. */
-RLVC_API rlvc_status rlvc_descriptors_nearest(const rlvc_descriptors *descriptors, const void *percept,
-                                              const void *feature, uint32_t *point, float *squared);
+RLVC_API rlvc_status rlvc_descriptors_nearest(const rlvc_descriptors *descriptors,
+                                              const void *percept, const void *feature,
+                                              uint32_t *point, float *squared);
 
 #ifdef __cplusplus
 }

@@ -41,7 +41,8 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DETECT_SAMPLES 64u
 #define RLVC_DETECT_FEATURES 64u
 
-/* domain.kind: what a ready-made domain is known by where its features must be understood (exporting). */
+/* domain.kind: what a ready-made domain is known by where its features must be understood
+ * (exporting). */
 #define RLVC_DOMAIN_OWN 0u /* yours */
 #define RLVC_DOMAIN_BITS 1u
 #define RLVC_DOMAIN_DESCRIPTORS 2u
@@ -50,8 +51,8 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 typedef struct rlvc_domain {
     void *ctx; /* handed to every callback, untouched */
 
-    uint32_t percept_bytes; /* size of a percept's record, [1, 2^20]. A record is aligned to 4 (8) if
-                               its size is a multiple of 4 (8), else to 1. */
+    uint32_t percept_bytes; /* size of a percept's record, [1, 2^20]. A record is aligned to 4
+                               (8) if its size is a multiple of 4 (8), else to 1. */
     uint32_t feature_bytes; /* size of a feature's record, [1, 2^16], aligned likewise */
     uint32_t features_max;  /* how many candidates there can be for one class, or 0 if not known;
                                only sizes memory */
@@ -63,9 +64,9 @@ typedef struct rlvc_domain {
 
     /* Candidates of the default refining oracle, which is an exhaustive search over the features
      * that the class's own percepts exhibit (section 4.2.3). Writes the candidates numbered first,
-     * first + 1, ... into features (at most `room` records of feature_bytes) and sets *written; fewer
-     * than room means that there are no more. The order is the tie-break: of two features that score
-     * alike, the earlier wins. Required unless `oracle` is set. */
+     * first + 1, ... into features (at most `room` records of feature_bytes) and sets *written;
+     * fewer than room means that there are no more. The order is the tie-break: of two features
+     * that score alike, the earlier wins. Required unless `oracle` is set. */
     int (*candidates)(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t room,
                       void *features, uint32_t *written);
 
@@ -90,9 +91,9 @@ typedef struct rlvc_domain {
 
 #define RLVC_NAME_BYTES 64u /* the room that name() gets */
 
-/* Spells a finite number in decimal as rlvc_print does, for name(): to at most `digits` significant digits,
- * [1, 9], nine of which tell any two floats apart. At most `room` - 1 characters, room at least 1, and a
- * final 0. O(1).
+/* Spells a finite number in decimal as rlvc_print does, for name(): to at most `digits` significant
+ * digits, [1, 9], nine of which tell any two floats apart. At most `room` - 1 characters, room at
+ * least 1, and a final 0. O(1).
  * @return how many characters. */
 RLVC_API uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The smallest decision tree that does what is allowed: given rows, each a vector of bits with a set of
- * allowed actions, the binary tree of the fewest leaves in which every row ends in a leaf whose action it
- * allows. (Section 7 asks for "techniques to remove learned features that are subsequently proved
- * useless".) Knows nothing of agents: rlvc/policy.h brings the two together. */
+/* The smallest decision tree that does what is allowed: given rows, each a vector of bits with a
+ * set of allowed actions, the binary tree of the fewest leaves in which every row ends in a leaf
+ * whose action it allows. (Section 7 asks for "techniques to remove learned features that are
+ * subsequently proved useless".) Knows nothing of agents: rlvc/policy.h brings the two together. */
 #ifndef RLVC_FEWEST_H
 #define RLVC_FEWEST_H
 
@@ -38,7 +38,8 @@ typedef struct rlvc_fewest_task {
                                 part of the rows in proportion, [1, RLVC_FEWEST_EFFORT_MAX] */
 } rlvc_fewest_task;
 
-/* A split of leaf `leaf`: rows without the feature stay in it, those with it get the next new leaf. */
+/* A split of leaf `leaf`: rows without the feature stay in it, those with it get the next new
+ * leaf. */
 typedef struct rlvc_fewest_split {
     uint32_t leaf;
     uint32_t feature;
@@ -56,17 +57,18 @@ typedef struct rlvc_fewest_tree {
 
 /* The exact size of the block that rlvc_fewest needs: of the order of entries * (8 + 16 * words) +
  * 20 * rows + 70 * features bytes. O(1).
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or RLVC_E_MEMORY if no size_t holds the
- *         size: *bytes is then 0. */
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or RLVC_E_MEMORY if no size_t
+ * holds the size: *bytes is then 0. */
 RLVC_API rlvc_status rlvc_fewest_size(const rlvc_fewest_task *task, size_t *bytes);
 
-/* Finds the tree. Dynamic programming over the subsets of rows that tests can reach (there are at most
- * 3^features, and of most no need, as a lower bound of what they take is known), each solved once and kept
- * in the table. Where the table or the effort does not suffice, the rows are parted by the feature that
- * purifies best (Gini), and each part is tried again. O(effort * depth) at worst.
+/* Finds the tree. Dynamic programming over the subsets of rows that tests can reach (there are at
+ * most 3^features, and of most no need, as a lower bound of what they take is known), each solved
+ * once and kept in the table. Where the table or the effort does not suffice, the rows are parted
+ * by the feature that purifies best (Gini), and each part is tried again. O(effort * depth) at
+ * worst.
  * @param memory aligned to 8; `bytes` of it, rlvc_fewest_size or more. The tree lies in it
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or two rows that are alike in every
- *         feature allow no common action; RLVC_E_MEMORY. */
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or two rows that are alike in
+ * every feature allow no common action; RLVC_E_MEMORY. */
 RLVC_API rlvc_status rlvc_fewest(const rlvc_fewest_task *task, void *memory, size_t bytes,
                                  rlvc_fewest_tree *tree);
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* A log of interactions, for flash or a serial line: written as they happen, read back by whoever wants to
- * learn from them.
+/* A log of interactions, for flash or a serial line: written as they happen, read back by whoever
+ * wants to learn from them.
  *
- * A log is a row of records, each with a sequence number and a CRC. A header begins it, and begins it anew
- * whenever a writer is opened to append to it. An episode is its first percept, then a record for each
- * interaction, which holds s' but not s, since that is the percept before it. A record that was cut
- * short or changed is left out, and what comes after is used. SPEC.md gives the bytes. */
+ * A log is a row of records, each with a sequence number and a CRC. A header begins it, and begins
+ * it anew whenever a writer is opened to append to it. An episode is its first percept, then a
+ * record for each interaction, which holds s' but not s, since that is the percept before it. A
+ * record that was cut short or changed is left out, and what comes after is used. SPEC.md gives the
+ * bytes. */
 #ifndef RLVC_LOG_H
 #define RLVC_LOG_H
 
@@ -66,8 +67,8 @@ typedef struct rlvc_log_record {
 } rlvc_log_record;
 
 typedef struct rlvc_log_reader {
-    /* Reads up to `room` bytes, waits if there are none yet, sets *got, 0 at the end of the log. Returns
-     * 0, or anything else to fail. */
+    /* Reads up to `room` bytes, waits if there are none yet, sets *got, 0 at the end of the log.
+     * Returns 0, or anything else to fail. */
     int (*read)(void *ctx, void *bytes, uint32_t room, uint32_t *got);
     void *ctx;
     unsigned char *buffer;
@@ -95,12 +96,12 @@ RLVC_API rlvc_status rlvc_log_read(
     rlvc_log_reader *reader, uint32_t percept_bytes, uint32_t actions, void *buffer, uint32_t room,
     int (*read)(void *ctx, void *bytes, uint32_t room, uint32_t *got), void *ctx);
 
-/* The next record. What can be made of the records in this order, rlvc_begin and rlvc_observe accept. An
- * interaction whose s is lost becomes the beginning of an episode at its s'. Amortised O(1) a byte but for
- * a byte of damage, O(record) at worst.
+/* The next record. What can be made of the records in this order, rlvc_begin and rlvc_observe
+ * accept. An interaction whose s is lost becomes the beginning of an episode at its s'. Amortised
+ * O(1) a byte but for a byte of damage, O(record) at worst.
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_STORE: read failed, call again; RLVC_E_VERSION,
- *         RLVC_E_MISMATCH, RLVC_E_MEMORY: by the header just read (of another version, other percepts or
- *         actions, with too little room), which is skipped by calling again. */
+ *         RLVC_E_MISMATCH, RLVC_E_MEMORY: by the header just read (of another version, other
+ * percepts or actions, with too little room), which is skipped by calling again. */
 RLVC_API rlvc_status rlvc_log_next(rlvc_log_reader *reader, rlvc_log_record *record);
 
 #ifdef __cplusplus

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* A policy by itself, without what learning needs: the agent's, made as small as can be, to be deployed.
+/* A policy by itself, without what learning needs: the agent's, made as small as can be, to be
+ * deployed.
  *
- * The agent's tree tells situations apart that are worth different amounts; a policy need only tell those
- * apart in which to act differently. So the smallest tree is sought, over the features that the agent's
- * tree tests, that does at each percept of the agent's ring what the agent does, or what is as good. See
- * rlvc/fewest.h for how.
+ * The agent's tree tells situations apart that are worth different amounts; a policy need only tell
+ * those apart in which to act differently. So the smallest tree is sought, over the features that
+ * the agent's tree tests, that does at each percept of the agent's ring what the agent does, or
+ * what is as good. See rlvc/fewest.h for how.
  *
- * A policy lies at the beginning of a block of the caller's and is independent of the agent from then on; its
- * domain's ctx must stay. It is used by one thread at a time. Every function here answers RLVC_E_NULL for a null
- * pointer that is not marked optional, and RLVC_E_REENTERED when a callback of the domain calls it. */
+ * A policy lies at the beginning of a block of the caller's and is independent of the agent from
+ * then on; its domain's ctx must stay. It is used by one thread at a time. Every function here
+ * answers RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
+ * callback of the domain calls it. */
 #ifndef RLVC_POLICY_H
 #define RLVC_POLICY_H
 
@@ -24,15 +26,15 @@ typedef struct rlvc_policy rlvc_policy;
 /* How to look for it. Start from rlvc_policy_default. */
 typedef struct rlvc_policy_config {
     /* At a percept an action is as good as the agent's if it was tried and its Q in the percept's
-     * class is no more than this below that of the agent's, in units of return, [0, RLVC_REWARD_MAX].
-     * The policy is then worth at most tolerance / (1 - discount) less than the agent's, by the
-     * agent's Q. 0: just the agent's action. Default twice the tolerance of the agent's config, which
-     * its solver cannot tell from nothing. */
+     * class is no more than this below that of the agent's, in units of return, [0,
+     * RLVC_REWARD_MAX]. The policy is then worth at most tolerance / (1 - discount) less than the
+     * agent's, by the agent's Q. 0: just the agent's action. Default twice the tolerance of the
+     * agent's config, which its solver cannot tell from nothing. */
     float tolerance;
 
-    /* Distinct ones that there is room for, [1, RLVC_FEWEST_ROWS_MAX]. Two are distinct if one exhibits
-     * a feature of the tree that the other does not. Default the number of percepts that the ring can
-     * hold, 16384 at most. */
+    /* Distinct ones that there is room for, [1, RLVC_FEWEST_ROWS_MAX]. Two are distinct if one
+     * exhibits a feature of the tree that the other does not. Default the number of percepts that
+     * the ring can hold, 16384 at most. */
     uint32_t percepts;
 
     uint32_t entries;  /* of the table, [2, RLVC_FEWEST_ENTRIES_MAX]. Default 65536: for up to 64
@@ -46,10 +48,11 @@ typedef struct rlvc_policy_config {
  * @return RLVC_OK. */
 RLVC_API rlvc_status rlvc_policy_default(const rlvc_agent *agent, rlvc_policy_config *config);
 
-/* The exact size of the block that rlvc_policy_make needs, for the agent as it is: it depends on the number
- * of classes and of the distinct features among its tests. O(classes^2) comparisons of features.
- * @return RLVC_OK; RLVC_E_RANGE: a field of the config, or RLVC_E_MEMORY if no size_t holds the size: *bytes
- *         is then 0. */
+/* The exact size of the block that rlvc_policy_make needs, for the agent as it is: it depends on
+ * the number of classes and of the distinct features among its tests. O(classes^2) comparisons of
+ * features.
+ * @return RLVC_OK; RLVC_E_RANGE: a field of the config, or RLVC_E_MEMORY if no size_t holds the
+ * size: *bytes is then 0. */
 RLVC_API rlvc_status rlvc_policy_size(const rlvc_agent *agent, const rlvc_policy_config *config,
                                       size_t *bytes);
 
@@ -63,27 +66,27 @@ typedef struct rlvc_policy_info {
     uint32_t features;  /* distinct ones that the agent's tree tests */
     uint32_t bytes;     /* of the block that the policy still needs, from its beginning on */
 
-    /* 1: no tree over these features has fewer leaves and does what is allowed at each percept of the
-     * ring; 0: table or effort did not suffice to know it. */
+    /* 1: no tree over these features has fewer leaves and does what is allowed at each percept of
+     * the ring; 0: table or effort did not suffice to know it. */
     uint8_t exact;
 
-    /* 1: the agent's action at every percept whatever, as nothing smaller was found than the collapsed
-     * tree, or there was no room for the percepts, or the agent has more than RLVC_FEWEST_ACTIONS_MAX
-     * actions. 0: at a percept unlike all of the ring's it does what is done at the percepts of the
-     * leaf that it comes to. */
+    /* 1: the agent's action at every percept whatever, as nothing smaller was found than the
+     * collapsed tree, or there was no room for the percepts, or the agent has more than
+     * RLVC_FEWEST_ACTIONS_MAX actions. 0: at a percept unlike all of the ring's it does what is
+     * done at the percepts of the leaf that it comes to. */
     uint8_t as_agent;
 
     uint8_t reserved[2];
 } rlvc_policy_info;
 
-/* Makes a policy of an agent, which is unchanged; best between learning steps, as while one is under way the
- * actions and values are those of the last solution. A step by RLVC_CRITERION_RETURNS leaves the ring without
- * percepts: then after more interactions. O(P (F + depth)) for the P percepts of the ring and F features,
- * with as many calls of exhibits(); then that of rlvc_fewest.
+/* Makes a policy of an agent, which is unchanged; best between learning steps, as while one is
+ * under way the actions and values are those of the last solution. A step by RLVC_CRITERION_RETURNS
+ * leaves the ring without percepts: then after more interactions. O(P (F + depth)) for the P
+ * percepts of the ring and F features, with as many calls of exhibits(); then that of rlvc_fewest.
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_policy_size or more
  * @param info optional
- * @return RLVC_OK; RLVC_E_RANGE: a field of the config; RLVC_E_MEMORY; RLVC_E_CALLBACK. On error *policy
- *         is null. */
+ * @return RLVC_OK; RLVC_E_RANGE: a field of the config; RLVC_E_MEMORY; RLVC_E_CALLBACK. On error
+ * *policy is null. */
 RLVC_API rlvc_status rlvc_policy_make(rlvc_agent *agent, const rlvc_policy_config *config,
                                       void *memory, size_t bytes, rlvc_policy **policy,
                                       rlvc_policy_info *info);
@@ -92,8 +95,8 @@ RLVC_API rlvc_status rlvc_policy_make(rlvc_agent *agent, const rlvc_policy_confi
  * @return RLVC_OK; RLVC_E_CALLBACK: *action unchanged. */
 RLVC_API rlvc_status rlvc_policy_act(rlvc_policy *policy, const void *percept, uint32_t *action);
 
-/* Prints the policy's tree, as rlvc_print does the agent's, but for values and numbers of interactions, which
- * its leaves do not have. O(nodes * depth).
+/* Prints the policy's tree, as rlvc_print does the agent's, but for values and numbers of
+ * interactions, which its leaves do not have. O(nodes * depth).
  * @return RLVC_OK; RLVC_E_RANGE: format; RLVC_E_CALLBACK: as of rlvc_print. */
 RLVC_API rlvc_status rlvc_policy_print(rlvc_policy *policy, uint32_t format, rlvc_write write,
                                        void *ctx);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Snapshots: an agent outlives the power.
  *
- * rlvc_save writes all that decides an agent's future, a learning step under way included, and rlvc_load
- * makes an agent of it that goes on bit for bit as if it had never stopped. A store has two slots. A
- * snapshot goes into the one that does not hold the newest, and counts only once its last byte is there:
- * whenever the power fails, one of the two is whole.
+ * rlvc_save writes all that decides an agent's future, a learning step under way included, and
+ * rlvc_load makes an agent of it that goes on bit for bit as if it had never stopped. A store has
+ * two slots. A snapshot goes into the one that does not hold the newest, and counts only once its
+ * last byte is there: whenever the power fails, one of the two is whole.
  *
- * The bytes are the same on every target; SPEC.md gives them. What a store holds is not trusted: whatever
- * it is, rlvc_load makes a sound agent or refuses. */
+ * The bytes are the same on every target; SPEC.md gives them. What a store holds is not trusted:
+ * whatever it is, rlvc_load makes a sound agent or refuses. */
 #ifndef RLVC_SNAPSHOT_H
 #define RLVC_SNAPSHOT_H
 
@@ -22,8 +22,8 @@ extern "C" {
 /* Every write is of this many bytes, at a multiple of them, and follows the one before it. */
 #define RLVC_STORE_UNIT 64u
 
-/* Where snapshots are kept: a file, flash, FRAM. Offsets count from the store's first byte. A callback
- * returns 0, or anything else to fail. */
+/* Where snapshots are kept: a file, flash, FRAM. Offsets count from the store's first byte. A
+ * callback returns 0, or anything else to fail. */
 typedef struct rlvc_store {
     void *ctx; /* handed to every callback, untouched */
 
@@ -36,8 +36,8 @@ typedef struct rlvc_store {
     int (*read)(void *ctx, uint32_t offset, void *buffer, uint32_t bytes);
     int (*write)(void *ctx, uint32_t offset, const void *buffer, uint32_t bytes);
 
-    /* Makes a whole slot ready to be written, optional: for flash, whose pages must be erased before. It
-     * is not called for a slot that holds the only whole snapshot. */
+    /* Makes a whole slot ready to be written, optional: for flash, whose pages must be erased
+     * before. It is not called for a slot that holds the only whole snapshot. */
     int (*erase)(void *ctx, uint32_t offset, uint32_t bytes);
 
     /* Returns when all that was written will outlast a power failure. Optional. */
@@ -48,7 +48,8 @@ typedef struct rlvc_store {
 
 /* The most bytes that a snapshot of an agent can take: what slot_bytes must be. A multiple of
  * RLVC_STORE_UNIT. O(1).
- * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if it is above RLVC_SLOT_BYTES_MAX: *bytes is 0. */
+ * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if it is above RLVC_SLOT_BYTES_MAX: *bytes is 0.
+ */
 RLVC_API rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
                                         uint32_t *bytes);
 
@@ -60,19 +61,20 @@ RLVC_API rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_do
      64u * 64u)
 #define RLVC_SNAPSHOT_FIXED_BYTES 225u
 
-/* Writes a snapshot. The agent is not changed. Stack and memory are bounded, but the time is what the
- * store takes for all the bytes. O(bytes).
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_REENTERED; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE: the last whole
- *         snapshot is still there. */
+/* Writes a snapshot. The agent is not changed. Stack and memory are bounded, but the time is what
+ * the store takes for all the bytes. O(bytes).
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_REENTERED; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE: the last
+ * whole snapshot is still there. */
 RLVC_API rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store);
 
-/* Makes an agent in the caller's block, as rlvc_agent_init does, out of the newest whole snapshot of a
- * store. The config must be the one it was saved with, in every field, and the domain must be as it was.
- * A learning step under way is brought back to where it was by doing its present part anew: that takes
- * at most the time of grouping all samples and of searching one class, and calls the domain.
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE;
- *         RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION; RLVC_E_MISMATCH; RLVC_E_CALLBACK. Unless it is
- *         RLVC_OK, *agent is null and the block holds nothing of use. */
+/* Makes an agent in the caller's block, as rlvc_agent_init does, out of the newest whole snapshot
+ * of a store. The config must be the one it was saved with, in every field, and the domain must be
+ * as it was. A learning step under way is brought back to where it was by doing its present part
+ * anew: that takes at most the time of grouping all samples and of searching one class, and calls
+ * the domain.
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes;
+ * RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION; RLVC_E_MISMATCH; RLVC_E_CALLBACK.
+ * Unless it is RLVC_OK, *agent is null and the block holds nothing of use. */
 RLVC_API rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
                                size_t bytes, const rlvc_store *store, rlvc_agent **agent);
 
@@ -87,10 +89,10 @@ typedef struct rlvc_snapshot_info {
     rlvc_config config;
 } rlvc_snapshot_info;
 
-/* Looks into a store, as a tool must that was not told the config. Nothing but the snapshot's wholeness is
- * checked. O(bytes).
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED;
- *         RLVC_E_VERSION: of *info, only what stands before percept_bytes is known. */
+/* Looks into a store, as a tool must that was not told the config. Nothing but the snapshot's
+ * wholeness is checked. O(bytes).
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE; RLVC_E_EMPTY;
+ * RLVC_E_DAMAGED; RLVC_E_VERSION: of *info, only what stands before percept_bytes is known. */
 RLVC_API rlvc_status rlvc_snapshot_peek(const rlvc_store *store, rlvc_snapshot_info *info);
 
 #ifdef __cplusplus

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The ready-made domain of thresholds: a percept is a vector of real numbers, a feature is a component and
- * a cutpoint, and a percept exhibits the feature if that component lies above the cutpoint. As an option
- * features may also weigh two components against each other (oblique tests). */
+/* The ready-made domain of thresholds: a percept is a vector of real numbers, a feature is a
+ * component and a cutpoint, and a percept exhibits the feature if that component lies above the
+ * cutpoint. As an option features may also weigh two components against each other (oblique
+ * tests). */
 #ifndef RLVC_THRESHOLDS_H
 #define RLVC_THRESHOLDS_H
 
@@ -17,14 +18,14 @@ extern "C" {
 #define RLVC_THRESHOLDS_CUTPOINTS_MAX 65535u
 #define RLVC_THRESHOLDS_NUMBER_MAX 1e15f
 
-/* What percepts are, and which features are looked at. The caller's, who keeps it in place and unchanged
- * for as long as an agent uses the domain.
+/* What percepts are, and which features are looked at. The caller's, who keeps it in place and
+ * unchanged for as long as an agent uses the domain.
  *
  * A percept's record is D numbers of binary32, each finite and of absolute value at most
- * RLVC_THRESHOLDS_NUMBER_MAX. rlvc_thresholds_check tells; it is for whoever hands percepts over to call
- * it, where a NaN may come in. A NaN or a number out of range that got into a percept nevertheless makes
- * every callback fail that looks at it, so that it is never an answer: acting and learning then end with
- * RLVC_E_CALLBACK for as long as the ring holds that percept. */
+ * RLVC_THRESHOLDS_NUMBER_MAX. rlvc_thresholds_check tells; it is for whoever hands percepts over to
+ * call it, where a NaN may come in. A NaN or a number out of range that got into a percept
+ * nevertheless makes every callback fail that looks at it, so that it is never an answer: acting
+ * and learning then end with RLVC_E_CALLBACK for as long as the ring holds that percept. */
 typedef struct rlvc_thresholds {
     uint32_t components; /* D, [1, RLVC_THRESHOLDS_COMPONENTS_MAX] */
 
@@ -34,8 +35,8 @@ typedef struct rlvc_thresholds {
      * Default 15. */
     uint32_t cutpoints;
 
-    /* 1: also tests x[i] + w x[j] > c of each pair i < j, where w is s_i / s_j times 1/2, 1 or 2, of
-     * either sign, and s the distance of a component's quartiles in the class; at most
+    /* 1: also tests x[i] + w x[j] > c of each pair i < j, where w is s_i / s_j times 1/2, 1 or 2,
+     * of either sign, and s the distance of a component's quartiles in the class; at most
      * RLVC_THRESHOLDS_OBLIQUE_MAX components. Default 0. */
     uint8_t oblique;
 
@@ -44,8 +45,9 @@ typedef struct rlvc_thresholds {
 
 #define RLVC_THRESHOLDS_PERCEPT_BYTES(components) (4u * (uint32_t)(components))
 
-/* A feature: x[component] + slope * x[other] > cutpoint. Where slope is 0, `other` means nothing and is 0.
- * A cutpoint of RLVC_THRESHOLDS_NONE is that of a candidate without one: no percept exhibits it. */
+/* A feature: x[component] + slope * x[other] > cutpoint. Where slope is 0, `other` means nothing
+ * and is 0. A cutpoint of RLVC_THRESHOLDS_NONE is that of a candidate without one: no percept
+ * exhibits it. */
 typedef struct rlvc_threshold {
     float cutpoint;
     float slope;
@@ -63,11 +65,11 @@ RLVC_API rlvc_status rlvc_thresholds_default(rlvc_thresholds *thresholds, uint32
 /* Makes *domain the domain of such percepts, with *thresholds as its ctx.
  *
  * Detecting is O(1) for each percept and feature. A cutpoint of a class lies half-way between two
- * neighbouring values that are distinct (on the lower one if rounding would put it on the upper). Quantiles
- * that are alike make one, so that a component of few values has few. To find
- * one, candidates() looks at each of the class's percepts ten times at most: O(room * samples), in one call.
- * Exact search has a candidate for each two neighbours in order, so that it costs O(samples^2) a class and
- * component: it is for small classes.
+ * neighbouring values that are distinct (on the lower one if rounding would put it on the upper).
+ * Quantiles that are alike make one, so that a component of few values has few. To find one,
+ * candidates() looks at each of the class's percepts ten times at most: O(room * samples), in one
+ * call. Exact search has a candidate for each two neighbours in order, so that it costs
+ * O(samples^2) a class and component: it is for small classes.
  *
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *domain);

@@ -162,8 +162,9 @@ rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, co
     if (rlvc_is_incremental(&agent->config)) {
         rlvc_updates updates;
         agent->busy = 1;
-        status = rlvc_incremental_prepare(&updates, &agent->config, &agent->domain, &agent->tree,
-                                          &agent->replay, &agent->values, choice, reward, next, end);
+        status =
+            rlvc_incremental_prepare(&updates, &agent->config, &agent->domain, &agent->tree,
+                                     &agent->replay, &agent->values, choice, reward, next, end);
         agent->busy = 0;
         if (status != RLVC_OK)
             return status;

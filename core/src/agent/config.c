@@ -114,7 +114,7 @@ static int wrong_in_choices(const rlvc_config *config) {
     if (config->score > RLVC_SCORE_RANKS)
         return WRONG_SCORE;
     unsigned solver = config->solver <= RLVC_SOLVER_PRIORITIZED ? 1u << config->solver : 0u;
-    if (!((unsigned)(RLVC_SOLVERS) & solver))
+    if (!(solver & (unsigned)(RLVC_SOLVERS)))
         return WRONG_SOLVER;
     if (config->untried > RLVC_UNTRIED_OPTIMISTIC)
         return WRONG_UNTRIED;

@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: MIT */
 /* A learning step (section 4.2.1, part 3), in slices.
  *
- * A step is a row of rounds. Each gives every percept its class (LABEL), finds the target of every sample
- * (GROUP) and examines each class once (SEARCH): the best split over its actions is carried out at the end
- * of the class, and the next round examines both children. When a round splits nothing, no class is
- * aliased any more and the step ends (FINISH): the policy is made greedy, k incremented. Only a class whose
- * targets tell nothing apart may be aliased by what follows (SUCCESSION): looked for when a round split
- * nothing; what is found makes another round.
+ * A step is a row of rounds. Each gives every percept its class (LABEL), finds the target of every
+ * sample (GROUP) and examines each class once (SEARCH): the best split over its actions is carried
+ * out at the end of the class, and the next round examines both children. When a round splits
+ * nothing, no class is aliased any more and the step ends (FINISH): the policy is made greedy, k
+ * incremented. Only a class whose targets tell nothing apart may be aliased by what follows
+ * (SUCCESSION): looked for when a round split nothing; what is found makes another round.
  *
- *     residual:  LABEL  MODEL SOLVE SEEK  GROUP SEARCH   each round; the targets need the values of its classes
- *                SUCCESSION                              if that split nothing, and config.successors
+ *     residual:  LABEL  MODEL SOLVE SEEK  GROUP SEARCH   each round; the targets need the values of
+ * its classes SUCCESSION                              if that split nothing, and config.successors
  *     returns:   LABEL  GROUP SEARCH                     each round; the targets are facts
  *                MODEL SOLVE SEEK                        once, after the last
  *
- * SEEK is for directed exploration. It stands where the model does, which the next GROUP overwrites.
+ * SEEK is for directed exploration. It stands where the model does, which the next GROUP
+ * overwrites.
  *
- * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing. In their place
- * KEEP copies V for the residual's targets, or these would change while the step is under way.
+ * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing. In their
+ * place KEEP copies V for the residual's targets, or these would change while the step is under
+ * way.
  *
- * All that a phase knows lies in the learner and in the tables, so that a budget may end anywhere between
- * two elementary steps, and what comes out does not depend on where. */
+ * All that a phase knows lies in the learner and in the tables, so that a budget may end anywhere
+ * between two elementary steps, and what comes out does not depend on where. */
 #include "learn.h"
 
 #include "../base/float_math.h"
@@ -43,15 +45,19 @@ rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind) {
 }
 
 rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion) {
-    rlvc_searching made = {
-        &agent->space,      &agent->replay, criterion, &agent->domain, agent->config.min_samples,
-        agent->config.score, agent->config.gate};
+    rlvc_searching made = {&agent->space,
+                           &agent->replay,
+                           criterion,
+                           &agent->domain,
+                           agent->config.min_samples,
+                           agent->config.score,
+                           agent->config.gate};
     return made;
 }
 
 rlvc_solving rlvc_learner_solving(const rlvc_agent *agent) {
-    rlvc_solving made = {agent->space.sample,     agent->tree.classes,     agent->config.max_sweeps,
-                         agent->config.discount,  agent->config.tolerance, agent->replay.slots,
+    rlvc_solving made = {agent->space.sample,    agent->tree.classes,     agent->config.max_sweeps,
+                         agent->config.discount, agent->config.tolerance, agent->replay.slots,
                          agent->pending};
     return made;
 }
@@ -89,8 +95,8 @@ static void begin_step(rlvc_agent *agent) {
 
 /* ------------------------------------------------------------------ LABEL */
 
-/* One test of the percept at position `at`: the whole way down the tree if it is new, else only the split
- * that the last round made of its class, if any. A unit each. */
+/* One test of the percept at position `at`: the whole way down the tree if it is new, else only the
+ * split that the last round made of its class, if any. A unit each. */
 static rlvc_status step_label(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_replay *replay = &agent->replay;
@@ -160,7 +166,8 @@ static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
 }
 
 /* Compares some more of the tree's features with one.
- * @return 1 if it is among them; 0 if not, and then `node` is the tree's last split or there are more. */
+ * @return 1 if it is among them; 0 if not, and then `node` is the tree's last split or there are
+ * more. */
 static int recognise(rlvc_agent *agent, const void *feature) {
     const rlvc_tree *tree = &agent->tree;
     rlvc_learner *learner = &agent->learner;
@@ -172,9 +179,9 @@ static int recognise(rlvc_agent *agent, const void *feature) {
     return 0;
 }
 
-/* ln of the level at which a feature new to the tree splits a class in this step: its share of alpha. The steps
- * share alpha by doublings, 1, 2, 4, ... steps long: the d-th has 1 / (d (d + 1)) of it, in equal parts, and so
- * all together have it once. In a step the two phases share alike. */
+/* ln of the level at which a feature new to the tree splits a class in this step: its share of
+ * alpha. The steps share alpha by doublings, 1, 2, 4, ... steps long: the d-th has 1 / (d (d + 1))
+ * of it, in equal parts, and so all together have it once. In a step the two phases share alike. */
 static float log_level(const rlvc_agent *agent) {
     float steps = 1.0f; /* of the doubling */
     uint32_t d = 1;
@@ -191,8 +198,8 @@ static uint32_t close_class(rlvc_agent *agent, uint32_t used) {
     return used;
 }
 
-/* Takes the result of the search in class `at`, and carries the split out if it is significant. Returns
- * the units used. */
+/* Takes the result of the search in class `at`, and carries the split out if it is significant.
+ * Returns the units used. */
 static uint32_t decide(rlvc_agent *agent) {
     rlvc_split split;
     const void *feature = found(agent, &split);
@@ -290,8 +297,8 @@ static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
 
 /* The values are there: what comes then. */
 static void leave_model(rlvc_agent *agent) {
-    enter(agent, agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH
-                                                                   : RLVC_PHASE_GROUP);
+    enter(agent,
+          agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH : RLVC_PHASE_GROUP);
 }
 
 static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {

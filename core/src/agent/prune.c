@@ -2,14 +2,14 @@
 /* Taking useless tests out of the tree (section 7, "techniques to remove learned features that are
  * subsequently proved useless"): see rlvc_prune.
  *
- * Splits are looked at from the newest to the oldest, and so each after all that are below it. One whose two
- * sides are single classes by then, which agree, is undone: the class that it made, j + 1, becomes again part of the one that
- * it was split from, and what is known of both is put together. As the layout of the tree is its history
- * (tree.h), the splits that are left, in their order, make a tree of their own: they are grown again in
- * place, and their classes numbered anew.
+ * Splits are looked at from the newest to the oldest, and so each after all that are below it. One
+ * whose two sides are single classes by then, which agree, is undone: the class that it made, j +
+ * 1, becomes again part of the one that it was split from, and what is known of both is put
+ * together. As the layout of the tree is its history (tree.h), the splits that are left, in their
+ * order, make a tree of their own: they are grown again in place, and their classes numbered anew.
  *
- * Of the tables that lie idle between two learning steps, `reward` and `first` hold the spread of the targets,
- * and `pending` what becomes of each class. */
+ * Of the tables that lie idle between two learning steps, `reward` and `first` hold the spread of
+ * the targets, and `pending` what becomes of each class. */
 #include "learn.h"
 #include "q_variance.h"
 #include "state.h"
@@ -18,8 +18,8 @@
 typedef struct pruner {
     rlvc_agent *agent;
     rlvc_spread spread;
-    uint16_t *gone; /* [classes] 1: split j, which made class j + 1, is undone; then the classes' new
-                       numbers */
+    uint16_t *gone; /* [classes] 1: split j, which made class j + 1, is undone; then the classes'
+                       new numbers */
     float tolerance;
     float deviations;
 } pruner;
@@ -95,7 +95,8 @@ static uint32_t undo_splits(pruner *p) {
     return undone;
 }
 
-/* Moves what is known of the classes that are left together; gone[] becomes each class's new number. */
+/* Moves what is known of the classes that are left together; gone[] becomes each class's new
+ * number. */
 static void number_classes(pruner *p) {
     const rlvc_tree *tree = &p->agent->tree;
     rlvc_values *values = &p->agent->values;

@@ -21,15 +21,15 @@ typedef struct rlvc_learner {
         rlvc_model model;
         rlvc_solver solver;
         rlvc_seeking seeking;
-    } work;              /* of the phase */
-    uint32_t end;        /* N: interactions at positions [0, end) are the database */
-    uint32_t at;         /* position, pair or class, by phase */
-    uint32_t node;       /* where the walk of the percept at position `at` is; or how many of the tree's
-                            features the class's new one was compared with */
-    uint32_t classes;    /* when this phase began */
-    uint32_t rounds;     /* begun in this step */
-    uint32_t splits;     /* made in this step */
-    uint32_t made;       /* made in this round */
+    } work;           /* of the phase */
+    uint32_t end;     /* N: interactions at positions [0, end) are the database */
+    uint32_t at;      /* position, pair or class, by phase */
+    uint32_t node;    /* where the walk of the percept at position `at` is; or how many of the
+                         tree's features the class's new one was compared with */
+    uint32_t classes; /* when this phase began */
+    uint32_t rounds;  /* begun in this step */
+    uint32_t splits;  /* made in this step */
+    uint32_t made;    /* made in this round */
     uint8_t phase;
     uint8_t searching; /* the search in class `at` has begun */
 } rlvc_learner;
@@ -45,15 +45,16 @@ struct rlvc_agent {
     rlvc_learner learner;
     rlvc_rng rng;
     uint64_t interactions;
-    uint16_t *pending;   /* [classes] the class that a split of this round made from one, or 0; of no use
-                            from LABEL to SEARCH, where prioritized sweeping has its priorities */
+    uint16_t *pending;   /* [classes] the class that a split of this round made from one, or 0;
+                            of no use from LABEL to SEARCH, where prioritized sweeping has its
+                            priorities */
     uint32_t step;       /* k */
     uint32_t run;        /* greedy actions that the present run of exploitation still has to take */
     uint32_t last_split; /* the step of the newest split */
     uint32_t refused;
-    uint32_t sweeps;     /* of the last solution */
+    uint32_t sweeps; /* of the last solution */
     float residual;
-    uint8_t busy;        /* a callback is being called */
+    uint8_t busy; /* a callback is being called */
 };
 
 static inline int rlvc_is_incremental(const rlvc_config *config) {

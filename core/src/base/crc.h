@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* CRC-32, as Ethernet, zlib and most microcontrollers' hardware have it: the polynomial 0x04c11db7,
- * lowest bit first, all ones before and inverted after. Of "123456789" it is 0xcbf43926. It finds every
- * change within 32 bits in a row, and misses one in 2^32 of the others. */
+ * lowest bit first, all ones before and inverted after. Of "123456789" it is 0xcbf43926. It finds
+ * every change within 32 bits in a row, and misses one in 2^32 of the others. */
 #ifndef RLVC_SRC_CRC_H
 #define RLVC_SRC_CRC_H
 

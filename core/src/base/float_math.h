@@ -9,8 +9,8 @@
  *     exp(x)      = 2^n exp(x - n ln 2),  n the integer nearest to x / ln 2.
  *
  * m - 1 is exact and e is 0 around 1, hence logarithms are accurate relative to themselves there
- * too. ln is free of branches, for the search evaluates the score very often. Largest relative errors
- * found in sweeps over the floats: ln 1.8e-7, ln_1_minus 2.4e-7, exp and sqrt 0.9e-7. */
+ * too. ln is free of branches, for the search evaluates the score very often. Largest relative
+ * errors found in sweeps over the floats: ln 1.8e-7, ln_1_minus 2.4e-7, exp and sqrt 0.9e-7. */
 #ifndef RLVC_SRC_FLOAT_MATH_H
 #define RLVC_SRC_FLOAT_MATH_H
 

@@ -5,15 +5,17 @@
  *
  *     m = max(3, a quarter of the mean over all pairs).
  *
- * One exploring action in two goes after such pairs: the least tried action of the class if that is little
- * tried, else the action that leads to a little-tried pair soonest (novelty.h). The other is drawn, and so is that of a class from
- * where none can be reached, or whose own little-tried pairs have been tried since that was found, with the weight
+ * One exploring action in two goes after such pairs: the least tried action of the class if that is
+ * little tried, else the action that leads to a little-tried pair soonest (novelty.h). The other is
+ * drawn, and so is that of a class from where none can be reached, or whose own little-tried pairs
+ * have been tried since that was found, with the weight
  *
  *     w(a) = p(a) / (1 + min(n(c, a), 8))^4,    p(a) = 4 if a was the action before, else 1.
  *
- * The first half presumes that the classes tell situations apart. While they do not, a way through them can end
- * at a wall, and it is the second half that gets the walk about: in a coarse class all n are large, and it
- * keeps its direction; in a fine one hardly anything is repeated before all has been tried. */
+ * The first half presumes that the classes tell situations apart. While they do not, a way through
+ * them can end at a wall, and it is the second half that gets the walk about: in a coarse class all
+ * n are large, and it keeps its direction; in a fine one hardly anything is repeated before all has
+ * been tried. */
 #ifndef RLVC_SRC_EXPLORE_H
 #define RLVC_SRC_EXPLORE_H
 
@@ -23,12 +25,13 @@
 #define RLVC_NO_ACTION 255u
 
 typedef struct rlvc_explorer {
-    uint8_t *seen; /* [classes_max][actions] n(c, a): interactions in the ring when last counted, and
-                      choices since; 255 stands for more */
+    uint8_t *seen; /* [classes_max][actions] n(c, a): interactions in the ring when last counted,
+                      and choices since; 255 stands for more */
     uint8_t *lead; /* [classes_max] the action that leads to a little-tried pair of another class
-                      soonest, as was found when last looked; RLVC_NO_ACTION: none can be reached, or
-                      one of the class's own was little tried */
-    uint8_t least; /* m; 0 before the first learning step, when nothing is known of what leads where */
+                      soonest, as was found when last looked; RLVC_NO_ACTION: none can be
+                      reached, or one of the class's own was little tried */
+    uint8_t least; /* m; 0 before the first learning step, when nothing is known of what leads
+                      where */
     uint8_t last;  /* the action before, or RLVC_NO_ACTION */
 } rlvc_explorer;
 
@@ -43,7 +46,8 @@ void rlvc_explorer_inherit(rlvc_explorer *explorer, uint32_t actions, uint32_t n
                            uint32_t old_class);
 
 /* Adds to a class what was counted in another, which becomes part of it. O(actions). */
-void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id, uint32_t other);
+void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
+                        uint32_t other);
 
 /* m for a database of so many interactions of so many pairs. O(1). */
 uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs);

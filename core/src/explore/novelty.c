@@ -47,8 +47,8 @@ static void close_class(rlvc_seeking *seeking, const rlvc_solving *solving, floa
 }
 
 /* U(c, a), once all its transitions are added. */
-static void close_pair(rlvc_seeking *seeking, const rlvc_solving *solving, const rlvc_values *values,
-                       rlvc_explorer *explorer) {
+static void close_pair(rlvc_seeking *seeking, const rlvc_solving *solving,
+                       const rlvc_values *values, rlvc_explorer *explorer) {
     size_t pair = rlvc_values_pair(values, seeking->class_id, seeking->action);
     uint32_t n = seeking->sum.weight;
     float u = n < explorer->least ? 1.0f : SEEK_DISCOUNT * rlvc_sum_mean(&seeking->sum);

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* How near a class is to what was little tried: value iteration on the class-level model, with rewards of
- * its own.
+/* How near a class is to what was little tried: value iteration on the class-level model, with
+ * rewards of its own.
  *
- *     U(c, a) = 1                                                     if (c, a) was tried fewer than m times
- *             = 0.95 * sum over c' of n(c, a, c') / n(c, a) * U(c')   otherwise
- *     U(c)    = max_a U(c, a);                                        0 after the end of an episode
+ *     U(c, a) = 1                                                     if (c, a) was tried fewer
+ * than m times = 0.95 * sum over c' of n(c, a, c') / n(c, a) * U(c')   otherwise U(c)    = max_a
+ * U(c, a);                                        0 after the end of an episode
  *
- * This is R-max (Brafman and Tennenholtz, 2002) without the rewards of the task: how much there is to be
- * gained need not be known, a reward that nobody has met yet is looked for as well as any other, and an
- * exploring action does not shun what is costly. In a deterministic world U(c) is 0.95 to the power of the
- * moves to the nearest little-tried pair.
+ * This is R-max (Brafman and Tennenholtz, 2002) without the rewards of the task: how much there is
+ * to be gained need not be known, a reward that nobody has met yet is looked for as well as any
+ * other, and an exploring action does not shun what is costly. In a deterministic world U(c) is
+ * 0.95 to the power of the moves to the nearest little-tried pair.
  *
- * The sweeps begin at U = 0 and only raise it; the last one is that which raises no U by more than 0.001, and what is
- * worth no more than that counts as out of reach. Tried means tried in the ring: what has left it is
- * worth another look. U lies in values.reward, which nobody needs between a solution and the next model. */
+ * The sweeps begin at U = 0 and only raise it; the last one is that which raises no U by more than
+ * 0.001, and what is worth no more than that counts as out of reach. Tried means tried in the ring:
+ * what has left it is worth another look. U lies in values.reward, which nobody needs between a
+ * solution and the next model. */
 #ifndef RLVC_SRC_NOVELTY_H
 #define RLVC_SRC_NOVELTY_H
 
@@ -36,13 +37,16 @@ typedef struct rlvc_seeking {
 /* Begins; explorer->least is m. O(classes). */
 void rlvc_seeking_begin(rlvc_seeking *seeking, const rlvc_solving *solving, rlvc_values *values);
 
-/* Works for one budget on the tables of the explorer. The first sweep counts n(c, a), unless explorer->seen is
- * null: when a snapshot's cursor is brought where it was, what has been counted since must stay.
- * @return the work, at most budget (>= 1): a unit for each transition and each pair, in each sweep. */
+/* Works for one budget on the tables of the explorer. The first sweep counts n(c, a), unless
+ * explorer->seen is null: when a snapshot's cursor is brought where it was, what has been counted
+ * since must stay.
+ * @return the work, at most budget (>= 1): a unit for each transition and each pair, in each sweep.
+ */
 uint32_t rlvc_seeking_step(rlvc_seeking *seeking, const rlvc_solving *solving, rlvc_values *values,
                            rlvc_explorer *explorer, uint32_t budget);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_seeking_mark(const rlvc_seeking *seeking, uint32_t word[4]);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The compact tree of a policy, for writing it as C.
  *
- * A node is mixed if its leaves do not all act alike. The compact tree consists of the mixed nodes, which are
- * internal, and of their other children, which become leaves. Nothing is stored of it: each question is
- * answered by a walk over a subtree, so that exporting takes no memory. In pre-order, mixed node i has its
- * absent child, if that is mixed, at i + 1, and its present child after all mixed nodes below the absent
- * one. */
+ * A node is mixed if its leaves do not all act alike. The compact tree consists of the mixed nodes,
+ * which are internal, and of their other children, which become leaves. Nothing is stored of it:
+ * each question is answered by a walk over a subtree, so that exporting takes no memory. In
+ * pre-order, mixed node i has its absent child, if that is mixed, at i + 1, and its present child
+ * after all mixed nodes below the absent one. */
 #ifndef RLVC_SRC_COLLAPSE_H
 #define RLVC_SRC_COLLAPSE_H
 
@@ -29,7 +29,8 @@ int rlvc_compact_is_mixed(const rlvc_compact *c, uint32_t node);
 /* The action of the first leaf below a node; if the node is not mixed, that of all. */
 uint32_t rlvc_compact_action(const rlvc_compact *c, uint32_t node);
 
-/* The node of the compact tree that follows in pre-order, 0 after the last: nothing is below a leaf of it. */
+/* The node of the compact tree that follows in pre-order, 0 after the last: nothing is below a leaf
+ * of it. */
 uint32_t rlvc_compact_next(const rlvc_compact *c, uint32_t node);
 
 /* The next mixed node; 0 after the last. */
@@ -54,15 +55,16 @@ static inline void rlvc_compact_number(rlvc_compact *c, const char *before, uint
 /* `before`, the name, `behind`. */
 void rlvc_compact_name(rlvc_compact *c, const char *before, const char *behind);
 
-/* A constant of type float, by digits that tell any two floats apart. Whole numbers below 1e9 are printed as
- * such, and lack a point. */
+/* A constant of type float, by digits that tell any two floats apart. Whole numbers below 1e9 are
+ * printed as such, and lack a point. */
 void rlvc_compact_float(rlvc_compact *c, float number);
 
 /* A line of the tree for people, up to what is tested, or all of it at a leaf. */
 void rlvc_compact_line(rlvc_compact *c, uint32_t node);
 
-/* An entry of the table of nodes holds the number of a test, and for each answer the number of a mixed
- * node, or else their count and an action. 1: these fit into a byte each, if the numbers of tests do. */
+/* An entry of the table of nodes holds the number of a test, and for each answer the number of a
+ * mixed node, or else their count and an action. 1: these fit into a byte each, if the numbers of
+ * tests do. */
 int rlvc_compact_fits_bytes(const rlvc_compact *c);
 
 /* The entry of mixed node number i, which is `node`. */

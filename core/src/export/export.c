@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The policy as a C header: see rlvc/export.h. Here is what is of the domain of bits, and the public
- * function; what is of the other domains has files of its own. */
+/* The policy as a C header: see rlvc/export.h. Here is what is of the domain of bits, and the
+ * public function; what is of the other domains has files of its own. */
 #include "rlvc/export.h"
 
 #include "rlvc/bits.h"
@@ -44,7 +44,7 @@ static void look_over(exporter *e) {
     } while (node != 0);
 }
 
-/* ------------------------------------------------------------------ a table of the action by the bits */
+/* ------------------------------------------------------------ a table of the action by the bits */
 
 static int table_is_small(const exporter *e) {
     return e->used <= TABLE_BITS_MAX && (1u << e->used) <= 16u * (e->c.mixed + 1u);

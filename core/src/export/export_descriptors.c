@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* A policy on descriptors as C: see rlvc/export.h.
  *
- * A feature is written once, however many nodes test it: it belongs to the first of them in pre-order, and
- * is numbered by the order of these. The detector that is written is the text of domains/descriptors.c with
- * the number of dimensions put in, so that the same numbers are added in the same order. */
+ * A feature is written once, however many nodes test it: it belongs to the first of them in
+ * pre-order, and is numbered by the order of these. The detector that is written is the text of
+ * domains/descriptors.c with the number of dimensions put in, so that the same numbers are added in
+ * the same order. */
 #include "export_descriptors.h"
 
 #include <string.h>
@@ -130,7 +131,8 @@ static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t feat
 
 /* ------------------------------------------------------------------ functions */
 
-/* The squared distance of two vectors, or more than the limit. Floats are added in lanes, eight at a time. */
+/* The squared distance of two vectors, or more than the limit. Floats are added in lanes, eight at
+ * a time. */
 static void put_between(rlvc_compact *c, const rlvc_descriptors *d) {
     const int bytes = d->form == RLVC_DESCRIPTORS_INT8;
     const char *number = bytes ? "int32_t" : "float";

@@ -51,9 +51,9 @@ static uint64_t truncated(const wide *x) {
     return x->exponent > -64 ? x->mantissa >> -x->exponent : 0;
 }
 
-/* The decimal digits of a positive float: returns an integer of exactly `digits` digits, of which the
- * first stands for 10^*power. Scaling by ten loses less than 2^-60 a time, so that the result is within
- * 2^-54 of the float: far nearer than a ninth digit. */
+/* The decimal digits of a positive float: returns an integer of exactly `digits` digits, of which
+ * the first stands for 10^*power. Scaling by ten loses less than 2^-60 a time, so that the result
+ * is within 2^-54 of the float: far nearer than a ninth digit. */
 static uint64_t decimal(uint32_t bits, uint32_t digits, int32_t *power) {
     wide x = widen(bits);
     uint64_t low = 1;
@@ -78,7 +78,8 @@ static uint64_t decimal(uint32_t bits, uint32_t digits, int32_t *power) {
     return low;
 }
 
-/* The digits of `whole` into text[0 .. count - 1], without the zeros at the end; returns their number. */
+/* The digits of `whole` into text[0 .. count - 1], without the zeros at the end; returns their
+ * number. */
 static uint32_t spell(uint64_t whole, uint32_t count, char *digit) {
     for (uint32_t i = count; i-- > 0; whole /= 10u)
         digit[i] = (char)('0' + (int)(whole % 10u));

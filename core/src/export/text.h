@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Writing text through a caller's callback, without stdio. The first failure sticks: after it nothing is
- * written any more. */
+/* Writing text through a caller's callback, without stdio. The first failure sticks: after it
+ * nothing is written any more. */
 #ifndef RLVC_SRC_TEXT_H
 #define RLVC_SRC_TEXT_H
 
@@ -18,9 +18,9 @@ void rlvc_text_string(rlvc_text *text, const char *string);
 /* A whole number in decimal. */
 void rlvc_text_uint(rlvc_text *text, uint32_t number);
 
-/* A finite number in decimal, as JSON has it, rounded to at most `digits` (1 to 9) significant digits;
- * nine tell any two floats apart. By integers only, so that every target prints the same. O(1): at most
- * 50 divisions. */
+/* A finite number in decimal, as JSON has it, rounded to at most `digits` (1 to 9) significant
+ * digits; nine tell any two floats apart. By integers only, so that every target prints the same.
+ * O(1): at most 50 divisions. */
 void rlvc_text_float(rlvc_text *text, float number, uint32_t digits);
 
 #endif

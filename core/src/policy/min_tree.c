@@ -6,23 +6,23 @@
  *     F(S) = 1                                        if all rows of S allow a common action, else
  *     F(S) = min over the features f that part S of F(S without f) + F(S with f)
  *
- * The same tests in another order lead to the same subset, so that each is solved but once and its F(S) kept
- * in a table. Its key is what all rows of S have in common, which features and with which values: of the
- * rows that some tests lead to no others have these.
+ * The same tests in another order lead to the same subset, so that each is solved but once and its
+ * F(S) kept in a table. Its key is what all rows of S have in common, which features and with which
+ * values: of the rows that some tests lead to no others have these.
  *
- * search() finds F(S) depth first, without recursion: a frame of a stack of our own tries one feature after
- * another, and waits for the frame above it, which solves one side of the parted subset. There is at most
- * one for each feature. The rows stand in an order in which each subset under examination is a stretch, as
- * in quicksort: it is parted in place, and what goes on in the frames above moves rows only within its own
- * part.
+ * search() finds F(S) depth first, without recursion: a frame of a stack of our own tries one
+ * feature after another, and waits for the frame above it, which solves one side of the parted
+ * subset. There is at most one for each feature. The rows stand in an order in which each subset
+ * under examination is a stretch, as in quicksort: it is parted in place, and what goes on in the
+ * frames above moves rows only within its own part.
  *
- * Branch and bound: for a subset that is not solved yet the table keeps a lower bound of F(S), which at first
- * is the number of its rows that pairwise allow nothing in common (chosen greedily). A feature is passed as
- * soon as the bounds of its two sides add up to as much as the best one so far, and a frame is asked only
- * for a tree that would be better than that.
+ * Branch and bound: for a subset that is not solved yet the table keeps a lower bound of F(S),
+ * which at first is the number of its rows that pairwise allow nothing in common (chosen greedily).
+ * A feature is passed as soon as the bounds of its two sides add up to as much as the best one so
+ * far, and a frame is asked only for a tree that would be better than that.
  *
- * grow() then puts the tree down from its root, as the table says; where that or the effort did not suffice,
- * by the feature that purifies best. */
+ * grow() then puts the tree down from its root, as the table says; where that or the effort did not
+ * suffice, by the feature that purifies best. */
 #include "rlvc/fewest.h"
 
 #include "../base/arena.h"
@@ -204,7 +204,8 @@ static glance look(fewest *s, uint32_t begin, uint32_t end) {
 
 /* ------------------------------------------------------------------ the search */
 
-/* Brings the rows of a stretch that lack a feature before those that have it. Returns where these begin. */
+/* Brings the rows of a stretch that lack a feature before those that have it. Returns where these
+ * begin. */
 static uint32_t partition(fewest *s, uint32_t begin, uint32_t end, uint32_t feature) {
     spend(s, end - begin);
     while (begin < end) {
@@ -219,8 +220,8 @@ static uint32_t partition(fewest *s, uint32_t begin, uint32_t end, uint32_t feat
     return begin;
 }
 
-/* Begins to search for a tree of at most `limit` leaves of a stretch, which was the last looked at, so that
- * the key is its own.
+/* Begins to search for a tree of at most `limit` leaves of a stretch, which was the last looked at,
+ * so that the key is its own.
  * @return 0: the table is full, or the effort is spent. */
 static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, uint32_t limit) {
     const frame fresh = {.begin = begin,
@@ -244,8 +245,8 @@ static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, ui
     return s->left > 0;
 }
 
-/* Ends the search of the frame on top. If it found no tree within its limit, all features were passed, and the
- * least of their bounds is one of F(S). */
+/* Ends the search of the frame on top. If it found no tree within its limit, all features were
+ * passed, and the least of their bounds is one of F(S). */
 static void leave(fewest *s) {
     const frame *f = &s->frames[--s->deep];
     entry *known = &s->table[f->slot];
@@ -403,8 +404,8 @@ static uint32_t root_of(fewest *s, uint32_t begin, uint32_t end, const glance *s
     return s->torn ? 0 : purest(s, begin, end);
 }
 
-/* Puts the tree down from its root, absent before present. A subset of one whose tree is in the table is
- * there, too. */
+/* Puts the tree down from its root, absent before present. A subset of one whose tree is in the
+ * table is there, too. */
 static uint8_t grow(fewest *s) {
     uint32_t parts = 1;
     uint8_t exact = 1;

@@ -46,8 +46,8 @@ static uint32_t step_samples(rlvc_grouping *grouping, const rlvc_aliasing *alias
     return used;
 }
 
-/* The phases that pass over the table of pairs. FILL leaves in first[p] where p + 1 begins; SHIFT, from
- * the end, puts that right. */
+/* The phases that pass over the table of pairs. FILL leaves in first[p] where p + 1 begins; SHIFT,
+ * from the end, puts that right. */
 static uint32_t step_pairs(rlvc_grouping *grouping, uint32_t *first) {
     uint32_t at = grouping->at;
     if (at > grouping->pairs) {

@@ -25,7 +25,8 @@ void rlvc_grouping_begin(rlvc_grouping *grouping, uint32_t pairs);
 uint32_t rlvc_grouping_step(rlvc_grouping *grouping, const rlvc_aliasing *aliasing,
                             rlvc_sample *sample, uint32_t *first, uint32_t budget);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_grouping_mark(const rlvc_grouping *grouping, uint32_t word[4]);
 
 #endif

@@ -57,8 +57,9 @@ static void push(rlvc_replay *replay, const void *percept) {
 
 rlvc_status rlvc_replay_begin(rlvc_replay *replay, const void *percept) {
     /* An open percept that is nobody's s' is of no use to anyone: the new one takes its place. */
-    if (replay->open && (replay->count == 1 ||
-                         !rlvc_replay_linked(replay, rlvc_replay_slot(replay, replay->count - 2)))) {
+    if (replay->open &&
+        (replay->count == 1 ||
+         !rlvc_replay_linked(replay, rlvc_replay_slot(replay, replay->count - 2)))) {
         RLVC_ASSERT(replay->count > replay->frozen);
         replay->count--;
         replay->open = 0;
@@ -79,8 +80,9 @@ void rlvc_replay_append(rlvc_replay *replay, rlvc_choice choice, float reward, c
     uint32_t slot = rlvc_replay_slot(replay, replay->count - 1);
     replay->action[slot] = choice.action;
     replay->reward[slot] = reward;
-    replay->flags[slot] = (uint8_t)(RLVC_SLOT_STORED | (choice.exploited ? RLVC_SLOT_EXPLOITED : 0u) |
-                                    (end == RLVC_TERMINATED ? RLVC_SLOT_TERMINATED : 0u));
+    replay->flags[slot] =
+        (uint8_t)(RLVC_SLOT_STORED | (choice.exploited ? RLVC_SLOT_EXPLOITED : 0u) |
+                  (end == RLVC_TERMINATED ? RLVC_SLOT_TERMINATED : 0u));
     replay->stored++;
     if (end != RLVC_TERMINATED)
         push(replay, next);

@@ -2,14 +2,15 @@
 /* The database of interactions <s_t, a_t, r_{t+1}, s_{t+1}, e_t> (section 4.2.1): a ring of slots.
  *
  * A slot holds a percept s_t and, once it was acted upon, what came of it. Slots stand in order of
- * time; position 0 is the oldest. The percept of position p + 1 is s' of the interaction at p, so that
- * two successive interactions share it, except where the interaction at p was terminated: then there
- * is no s', and p + 1 begins another episode. A truncated or torn episode ends with a slot that holds
- * its last s' and no interaction.
+ * time; position 0 is the oldest. The percept of position p + 1 is s' of the interaction at p, so
+ * that two successive interactions share it, except where the interaction at p was terminated: then
+ * there is no s', and p + 1 begins another episode. A truncated or torn episode ends with a slot
+ * that holds its last s' and no interaction.
  *
- * Invariants: every slot with an interaction that was not terminated has a successor; a slot without one
- * is the s' of the slot before it, or the current percept; position 0 holds an interaction or is the only
- * slot; the current percept, if there is one (open), is at the last position. */
+ * Invariants: every slot with an interaction that was not terminated has a successor; a slot
+ * without one is the s' of the slot before it, or the current percept; position 0 holds an
+ * interaction or is the only slot; the current percept, if there is one (open), is at the last
+ * position. */
 #ifndef RLVC_SRC_REPLAY_H
 #define RLVC_SRC_REPLAY_H
 
@@ -73,8 +74,8 @@ int rlvc_replay_has_room(const rlvc_replay *replay);
 void rlvc_replay_append(rlvc_replay *replay, rlvc_choice choice, float reward, const void *next,
                         uint8_t end);
 
-/* Freezes what is stored now: it will not leave until `frozen` is 0 again. An interaction observed later
- * is not part of it, though its percept may be, as the s' of the last one that is.
+/* Freezes what is stored now: it will not leave until `frozen` is 0 again. An interaction observed
+ * later is not part of it, though its percept may be, as the s' of the last one that is.
  * @return the end: interactions at positions [0, end) are the frozen ones. O(1). */
 uint32_t rlvc_replay_freeze(rlvc_replay *replay);
 

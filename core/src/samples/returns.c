@@ -36,8 +36,7 @@ uint32_t rlvc_window_step(rlvc_window *window, const rlvc_returns *returns, uint
             else
                 window->offset++;
         } else {
-            uint32_t slot =
-                rlvc_replay_slot(returns->replay, window->position + window->offset);
+            uint32_t slot = rlvc_replay_slot(returns->replay, window->position + window->offset);
             window->value = returns->replay->reward[slot] + returns->discount * window->value;
             window->defined = window->done = window->offset == 0;
             window->offset -= window->offset != 0;

@@ -39,11 +39,12 @@ void rlvc_sort_begin(rlvc_sort *sort, rlvc_sample *sample, uint32_t count, void 
  * What comes out does not depend on the budgets. About 15 units a sample. */
 uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget);
 
-/* Takes the smallest step that a cursor can stop after, so that every state that some budgets lead to
- * is passed through. Not to be called when done. */
+/* Takes the smallest step that a cursor can stop after, so that every state that some budgets lead
+ * to is passed through. Not to be called when done. */
 void rlvc_sort_single(rlvc_sort *sort);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_sort_mark(const rlvc_sort *sort, uint32_t word[5]);
 
 #endif

@@ -13,8 +13,8 @@ void rlvc_model_begin(rlvc_model *model, uint32_t pairs) {
     model->done = 0;
 }
 
-/* Takes up the next pair. Its end must be read before first[] is overwritten with packed places, and
- * its begin is the end of the one before. */
+/* Takes up the next pair. Its end must be read before first[] is overwritten with packed places,
+ * and its begin is the end of the one before. */
 static void open_pair(rlvc_model *model, rlvc_values *values) {
     if (model->pair == model->grouping.pairs) {
         values->first[model->pair] = model->packed;

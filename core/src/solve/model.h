@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* The class-level decision process that the database shows (section 4.1), as a sparse table.
  *
- * For each pair (c, a): the mean reward, how often it was tried, and for each class c' that followed,
- * how often. The transitions lie in the sample array itself, which is free while the values are solved
- * for, so that the model takes no memory of its own: transition i is {key: c', slot: count}, those of the
- * pair p at [first[p], first[p + 1]). RLVC_NO_CLASS stands for c' where the episode terminated.
+ * For each pair (c, a): the mean reward, how often it was tried, and for each class c' that
+ * followed, how often. The transitions lie in the sample array itself, which is free while the
+ * values are solved for, so that the model takes no memory of its own: transition i is {key: c',
+ * slot: count}, those of the pair p at [first[p], first[p + 1]). RLVC_NO_CLASS stands for c' where
+ * the episode terminated.
  *
- * A pair that has been tried, but whose interactions have all left the ring, has no transitions: the batch
- * solvers leave its Q as it was, so that what was learnt is not lost with what it was learnt from. */
+ * A pair that has been tried, but whose interactions have all left the ring, has no transitions:
+ * the batch solvers leave its Q as it was, so that what was learnt is not lost with what it was
+ * learnt from. */
 #ifndef RLVC_SRC_MODEL_H
 #define RLVC_SRC_MODEL_H
 
@@ -20,8 +22,8 @@ typedef struct rlvc_model {
     rlvc_sort sort;
     rlvc_sum sum;
     uint32_t pair;
-    uint32_t at;     /* sample under work */
-    uint32_t begin;  /* the pair's samples, before they are counted together: [begin, end) */
+    uint32_t at;    /* sample under work */
+    uint32_t begin; /* the pair's samples, before they are counted together: [begin, end) */
     uint32_t end;
     uint32_t packed; /* transitions written so far */
     uint8_t phase;
@@ -32,8 +34,8 @@ void rlvc_model_begin(rlvc_model *model, uint32_t pairs);
 
 /* Works on the model for one budget. aliasing->kind is RLVC_KEY_SUCCESSOR.
  * @param scratch RLVC_SORT_SCRATCH_BYTES, aligned to 8, the model's until it is done
- * @return the work, at most budget (>= RLVC_BUDGET_MIN): that of the grouping and of sorting each pair,
- *         and three units for each interaction. */
+ * @return the work, at most budget (>= RLVC_BUDGET_MIN): that of the grouping and of sorting each
+ * pair, and three units for each interaction. */
 uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
                          rlvc_sample *sample, void *scratch, uint32_t budget);
 
@@ -41,7 +43,8 @@ uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_
 void rlvc_model_single(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
                        rlvc_sample *sample, void *scratch);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_model_mark(const rlvc_model *model, uint32_t word[8]);
 
 #endif

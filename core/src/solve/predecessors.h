@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Who leads to a class, for prioritized sweeping (value_iteration.h): the model's transitions, turned round.
+/* Who leads to a class, for prioritized sweeping (value_iteration.h): the model's transitions,
+ * turned round.
  *
  * Where several interactions were counted to one transition, the sample array has room behind the
  * model's E transitions (model.h). There lie, if they fit, for C classes:
@@ -44,8 +45,8 @@ static inline const rlvc_sample *rlvc_predecessors_of(const rlvc_sample *sample,
 
 void rlvc_predecessors_begin(rlvc_predecessors *predecessors);
 
-/* Takes one elementary step: a unit. There are two for each class and transition, and one for each pair.
- * Not to be called when done, nor unless they fit. O(1). */
+/* Takes one elementary step: a unit. There are two for each class and transition, and one for each
+ * pair. Not to be called when done, nor unless they fit. O(1). */
 void rlvc_predecessors_step(rlvc_predecessors *predecessors, const rlvc_turning *turning);
 
 #endif

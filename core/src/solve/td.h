@@ -5,8 +5,8 @@
  *     Q-learning: target = r + gamma max_a' Q(c', a'), at once
  *     Sarsa:      target = r + gamma Q(c', a') with the action a' that was taken, so one step later
  *
- * and r alone where the episode terminated. Where it was truncated nobody acts after s', and Sarsa too
- * takes the maximum; where it was torn, Sarsa's last update is not made. */
+ * and r alone where the episode terminated. Where it was truncated nobody acts after s', and Sarsa
+ * too takes the maximum; where it was torn, Sarsa's last update is not made. */
 #ifndef RLVC_SRC_TD_H
 #define RLVC_SRC_TD_H
 
@@ -14,8 +14,8 @@
 #include "../tree/tree.h"
 #include "../tree/values.h"
 
-/* What an observation is about to change in Q: made ready first, since classifying may fail, and then
- * carried out, which cannot. */
+/* What an observation is about to change in Q: made ready first, since classifying may fail, and
+ * then carried out, which cannot. */
 typedef struct rlvc_update {
     uint32_t class_id;
     uint32_t action;
@@ -33,7 +33,8 @@ typedef struct rlvc_updates {
 rlvc_status rlvc_incremental_prepare(rlvc_updates *updates, const rlvc_config *config,
                                      const rlvc_domain *domain, const rlvc_tree *tree,
                                      const rlvc_replay *replay, const rlvc_values *values,
-                                     rlvc_choice choice, float reward, const void *next, uint8_t end);
+                                     rlvc_choice choice, float reward, const void *next,
+                                     uint8_t end);
 
 /* Carries them out: Q, V and the policy of the classes concerned. O(actions). */
 void rlvc_incremental_apply(const rlvc_updates *updates, float learning_rate, rlvc_values *values);

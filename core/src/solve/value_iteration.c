@@ -8,7 +8,8 @@
 #include <float.h>
 #include <string.h>
 
-/* Prioritized: GATHER, PREPARE, then CHOOSE, SWEEP and SPREAD for each class that is backed up; CLEAR. */
+/* Prioritized: GATHER, PREPARE, then CHOOSE, SWEEP and SPREAD for each class that is backed up;
+ * CLEAR. */
 enum { SWEEP, IMPROVE, GATHER, PREPARE, CHOOSE, SPREAD, CLEAR };
 
 #define HAS_IMPROVING RLVC_HAS_SOLVER(RLVC_SOLVER_POLICY_ITERATION)
@@ -139,8 +140,8 @@ static uint32_t sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_val
     return 1;
 }
 
-/* Makes the policy of one class greedy. An action must be better than the present one by more than what
- * the values are uncertain by, or two that are equally good could take turns for ever. */
+/* Makes the policy of one class greedy. An action must be better than the present one by more than
+ * what the values are uncertain by, or two that are equally good could take turns for ever. */
 static void improve(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
     uint32_t c = solver->class_id;
     uint32_t greedy = rlvc_values_greedy(values, c);
@@ -182,8 +183,8 @@ static void gather(rlvc_solver *solver, const rlvc_solving *solving, const rlvc_
         restart(solver, PREPARE);
 }
 
-/* Gives a class the priority that it has in the beginning, or in the end (before value iteration, for
- * want of room). */
+/* Gives a class the priority that it has in the beginning, or in the end (before value iteration,
+ * for want of room). */
 static void set_priority(rlvc_solver *solver, const rlvc_solving *solving) {
     solving->priority[solver->class_id] = solver->phase == PREPARE ? UNKNOWN : 0;
     if (++solver->class_id < solving->classes)
@@ -215,8 +216,8 @@ static void leave(rlvc_solver *solver, const rlvc_solving *solving) {
         finish(solver, solver->highest);
         return;
     }
-    solver->level = solver->highest > least + AN_EIGHTH ? (uint16_t)(solver->highest - AN_EIGHTH)
-                                                        : least;
+    solver->level =
+        solver->highest > least + AN_EIGHTH ? (uint16_t)(solver->highest - AN_EIGHTH) : least;
     solver->highest = 0;
     restart(solver, CHOOSE);
 }
@@ -329,8 +330,8 @@ static int phase_is_possible(const rlvc_solver *solver) {
     return solver->phase <= solver->improve || (solver->phase == CLEAR && solver->prioritized);
 }
 
-/* Is what words gave to prioritized sweeping in order, and nothing given to the others? Zeros must stand
- * where they will not be put any more. */
+/* Is what words gave to prioritized sweeping in order, and nothing given to the others? Zeros must
+ * stand where they will not be put any more. */
 static int priorities_are_possible(const rlvc_solver *solver, const rlvc_solving *solving) {
     if (!solver->turned && (solver->backups || solver->level || solver->highest))
         return 0;

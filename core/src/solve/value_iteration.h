@@ -4,23 +4,24 @@
  *
  * The first two sweep over the classes,
  *     Q(c, a) := r(c, a) + gamma * sum over c' of n(c, a, c') / n(c, a) * V(c')
- * and put V(c) in place as they go (Gauss-Seidel). Value iteration takes V(c) := max_a Q(c, a), that is
- * equation (2). Policy iteration takes V(c) := Q(c, pi(c)) until that has settled, then makes pi greedy,
- * until nothing changes.
+ * and put V(c) in place as they go (Gauss-Seidel). Value iteration takes V(c) := max_a Q(c, a),
+ * that is equation (2). Policy iteration takes V(c) := Q(c, pi(c)) until that has settled, then
+ * makes pi greedy, until nothing changes.
  *
- * A sweep contracts the error by gamma, so that after one that changed no V by more than delta, V is
- * within delta * gamma / (1 - gamma) of its fixed point: a sweep is the last when that is at most
- * config.tolerance. (For gamma = 1 nothing is known; then delta itself is held to the tolerance.) Where
- * binary32 cannot resolve so much, a few units in the last place of the largest value do.
+ * A sweep contracts the error by gamma, so that after one that changed no V by more than delta, V
+ * is within delta * gamma / (1 - gamma) of its fixed point: a sweep is the last when that is at
+ * most config.tolerance. (For gamma = 1 nothing is known; then delta itself is held to the
+ * tolerance.) Where binary32 cannot resolve so much, a few units in the last place of the largest
+ * value do.
  *
- * Prioritized sweeping (Moore and Atkeson, 1993) backs up, by value iteration's rule, only classes whose V
- * may change much, largest first. The priority of a class is a bound on how far V(c) is from max_a Q(c, a):
- * 0 after its backup; when V(c') changes by d, it grows by gamma n(c, a, c') / n(c, a) |d| for each a. A
- * pass over the classes backs up those above a level, which then falls to an eighth of the highest priority
- * that is left. It is over when that is at most (1 - gamma) tolerance: then V is within the tolerance
- * of its fixed point. A priority is the upper half of a binary32, rounded up; its order is that of whole
- * numbers. `classes` backups are called a sweep. Where predecessors do not fit (predecessors.h), value
- * iteration is done instead. */
+ * Prioritized sweeping (Moore and Atkeson, 1993) backs up, by value iteration's rule, only classes
+ * whose V may change much, largest first. The priority of a class is a bound on how far V(c) is
+ * from max_a Q(c, a): 0 after its backup; when V(c') changes by d, it grows by gamma n(c, a, c') /
+ * n(c, a) |d| for each a. A pass over the classes backs up those above a level, which then falls to
+ * an eighth of the highest priority that is left. It is over when that is at most (1 - gamma)
+ * tolerance: then V is within the tolerance of its fixed point. A priority is the upper half of a
+ * binary32, rounded up; its order is that of whole numbers. `classes` backups are called a sweep.
+ * Where predecessors do not fit (predecessors.h), value iteration is done instead. */
 #ifndef RLVC_SRC_VALUE_ITERATION_H
 #define RLVC_SRC_VALUE_ITERATION_H
 
@@ -32,7 +33,8 @@ typedef struct rlvc_solver {
     rlvc_sum sum;
     rlvc_predecessors predecessors;
     float residual; /* max |V_new - V_old| so far in this sweep; at the end, of the last sweep.
-                       Prioritized: |V_new - V_old| of the last backup; at the end, the highest priority */
+                       Prioritized: |V_new - V_old| of the last backup; at the end, the highest
+                       priority */
     float largest;  /* max |V| likewise */
     uint32_t sweeps;
     uint32_t class_id; /* where the sweep is: class, action, transition */
@@ -42,7 +44,7 @@ typedef struct rlvc_solver {
     uint16_t highest;    /* the highest priority left by this pass; */
     uint16_t backups;    /* since the last whole sweep */
     uint8_t prioritized;
-    uint8_t turned; /* the predecessors are there */
+    uint8_t turned;  /* the predecessors are there */
     uint8_t improve; /* policy iteration */
     uint8_t changed; /* the policy, in this improvement */
     uint8_t phase;
@@ -63,8 +65,8 @@ typedef struct rlvc_solving {
 void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind);
 
 /* @return the work, at most budget (>= 1): a unit for each transition and each pair, in each sweep;
- *         prioritized, a unit for each of a class that is backed up, for each predecessor of it and one
- *         more, and for each class in each pass; two for each class besides, and those of
+ *         prioritized, a unit for each of a class that is backed up, for each predecessor of it and
+ * one more, and for each class in each pass; two for each class besides, and those of
  *         rlvc_predecessors_step. */
 uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
                           uint32_t budget);

@@ -34,9 +34,9 @@
  *      BLOCK   a block of 2^level words in it is passed over, if it may be, else halved; after one
  *              that was, the next may be twice as long;
  *      BITS    in a block of one word that could not be passed over, cutpoint by cutpoint;
- *      or, by ranks, RANK in place of all but the first: each word goes into the sums of rank_sum.h.
- * Each action costs at most ACTION_MAX units and is only begun if so much is left; none depends on
- * how much is left, which is why the slicing changes nothing. */
+ *      or, by ranks, RANK in place of all but the first: each word goes into the sums of
+ * rank_sum.h. Each action costs at most ACTION_MAX units and is only begun if so much is left; none
+ * depends on how much is left, which is why the slicing changes nothing. */
 #include "cutpoint.h"
 
 #include "../base/assert.h"

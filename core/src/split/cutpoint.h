@@ -40,7 +40,7 @@ typedef struct rlvc_scan {
     float narrow, wide; /* the bar, as bounds of n^2: see cutpoint.c */
     const uint64_t *column;
     const uint64_t *cuts;
-    rlvc_ranks ranks;   /* the sums before `word`, if there is no cutpoint to seek */
+    rlvc_ranks ranks; /* the sums before `word`, if there is no cutpoint to seek */
     uint32_t chunk_present[RLVC_SCAN_CHUNKS]; /* samples of each chunk that exhibit the feature */
 } rlvc_scan;
 
@@ -66,7 +66,8 @@ uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget);
 /* Takes the smallest step that a cursor can stop after. Not to be called when done. */
 void rlvc_scan_single(rlvc_scan *scan);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_scan_mark(const rlvc_scan *scan, uint32_t word[3]);
 
 #endif

@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* The value gate: would a split raise the estimated return, and not only the likelihood of the targets?
+/* The value gate: would a split raise the estimated return, and not only the likelihood of the
+ * targets?
  *
- * A feature parts the samples of a class into two sides, s = 0 without and s = 1 with it. Of the n targets after
- * action a on side s let m(a, s) be the mean, and e(a, s) its standard error, the square of which is
+ * A feature parts the samples of a class into two sides, s = 0 without and s = 1 with it. Of the n
+ * targets after action a on side s let m(a, s) be the mean, and e(a, s) its standard error, the
+ * square of which is
  *
  *     e^2 = (sum of (target - m)^2 / n) / n.
  *
- * g is the action with the greatest mean over both sides, the greedy one of the class as it is. A split raises the
- * return by what another action is worth more than g on one side. As that action is chosen for it, and means vary,
- * there always seems to be one, even where all actions are worth the same. So not means are compared but what they
- * are sure to be, RLVC_GATE_DEVIATIONS standard errors off: the split passes if on some side s
+ * g is the action with the greatest mean over both sides, the greedy one of the class as it is. A
+ * split raises the return by what another action is worth more than g on one side. As that action
+ * is chosen for it, and means vary, there always seems to be one, even where all actions are worth
+ * the same. So not means are compared but what they are sure to be, RLVC_GATE_DEVIATIONS standard
+ * errors off: the split passes if on some side s
  *
  *     max over a of (m(a, s) - 2 e(a, s))  >  m(g, s) + 2 e(g, s) + gap,
  *
- * where the gap is what the solver's values are sure to. An action with fewer than min_samples on a side does not
- * count there: its spread is not known. */
+ * where the gap is what the solver's values are sure to. An action with fewer than min_samples on a
+ * side does not count there: its spread is not known. */
 #ifndef RLVC_SRC_GATE_H
 #define RLVC_SRC_GATE_H
 
@@ -22,8 +25,8 @@
 
 #define RLVC_GATE_DEVIATIONS 2.0f
 
-/* The targets of one action on one side, as differences from the first of them, so that a mean far from 0 costs no
- * digits of the spread. */
+/* The targets of one action on one side, as differences from the first of them, so that a mean far
+ * from 0 costs no digits of the spread. */
 typedef struct rlvc_side {
     rlvc_sum off;
     float squares;

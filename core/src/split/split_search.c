@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* The search for the best split of a class: see split_search.h.
  *
- * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates at a
- * time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned (SCAN); a
- * block that all groups have seen is closed (CLOSE). With the domain's own oracle, each cutpoint of each
- * group is put to it (ASK) and its feature counted (ANSWER). At the end the winners get their p-values
- * (TEST_ALONE, TEST_TOGETHER), and the split, with config.gate, must pass the gate (OPEN, GATE): if it does not, its
- * feature is set aside and the candidates are gone through again. */
+ * Phases: each group is sorted (SORT) and its cutpoints marked (MARK). Then, a block of candidates
+ * at a time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned
+ * (SCAN); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
+ * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the
+ * winners get their p-values (TEST_ALONE, TEST_TOGETHER), and the split, with config.gate, must
+ * pass the gate (OPEN, GATE): if it does not, its feature is set aside and the candidates are gone
+ * through again. */
 #include "split_search.h"
 
 #include "../base/float_math.h"
@@ -153,8 +154,8 @@ static void close_group(rlvc_search *search, const rlvc_searching *searching) {
         open_sort(search, searching->space);
 }
 
-/* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered into
- * clusters from the lowest up as targets.h tells them apart. */
+/* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered
+ * into clusters from the lowest up as targets.h tells them apart. */
 static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint32_t budget) {
     rlvc_group *group = &searching->space->group[search->action];
     const rlvc_sample *sample = search->view.sample + group->begin;
@@ -180,7 +181,8 @@ static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint3
 
 /* ------------------------------------------------------------------ the default oracle */
 
-/* Goes to the first group from search->action on that takes part; at the end, to the phase `then`. */
+/* Goes to the first group from search->action on that takes part; at the end, to the phase
+ * `then`. */
 static void next_group(rlvc_search *search, const rlvc_workspace *space, uint8_t phase,
                        uint8_t then) {
     while (search->action < space->actions && space->group[search->action].cuts == 0)
@@ -247,8 +249,9 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *search
     return RLVC_OK;
 }
 
-/* Begins to scan the column that search->column names. Where there is but one group, a column that cannot
- * beat the best so far need not be scanned to the end; else its own best counts, for the sum. */
+/* Begins to scan the column that search->column names. Where there is but one group, a column that
+ * cannot beat the best so far need not be scanned to the end; else its own best counts, for the
+ * sum. */
 static void open_column(rlvc_search *search, const rlvc_searching *searching,
                         const rlvc_group *group) {
     const rlvc_workspace *space = searching->space;
@@ -369,7 +372,8 @@ static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
     return RLVC_OK;
 }
 
-/* Looks for the oracle's feature in one sample; after the last, weighs it at the oracle's cutpoint. */
+/* Looks for the oracle's feature in one sample; after the last, weighs it at the oracle's
+ * cutpoint. */
 static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_workspace *space = searching->space;
     const rlvc_group *group = &space->group[search->action];
@@ -417,8 +421,8 @@ static uint32_t open_gate(rlvc_search *search, const rlvc_workspace *space) {
     return RLVC_TEST_UNITS;
 }
 
-/* Sets the feature aside, and goes through the candidates again: what explains the targets best may be of no use
- * to any action, and hide what is. */
+/* Sets the feature aside, and goes through the candidates again: what explains the targets best may
+ * be of no use to any action, and hide what is. */
 static void refuse(rlvc_search *search) {
     search->refused[search->column / 32u % 2u] |= 1u << search->column % 32u;
     search->alone.evidence = 0.0f;

@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 /* Class refinement (section 4.2.3): the best feature for one class, and whether it is real (4.2.4).
  *
- * The samples of each action are a group. A group is sorted by target once; its cutpoints lie between
- * neighbours whose targets are distinct, and are kept as a string of bits. Each candidate feature becomes
- * a column of bits in the order of the samples, 1 where the sample's percept exhibits it; running counts
- * over column and cutpoints then give every 2 x 2 table. With N samples, F features and C cutpoints that
- * costs O(N + F N / 64 + F C) beside detecting, not O(F N C). Columns are made for a block of features at
- * a time.
+ * The samples of each action are a group. A group is sorted by target once; its cutpoints lie
+ * between neighbours whose targets are distinct, and are kept as a string of bits. Each candidate
+ * feature becomes a column of bits in the order of the samples, 1 where the sample's percept
+ * exhibits it; running counts over column and cutpoints then give every 2 x 2 table. With N
+ * samples, F features and C cutpoints that costs O(N + F N / 64 + F C) beside detecting, not O(F N
+ * C). Columns are made for a block of features at a time.
  *
- * By ranks a feature has instead one statistic in each group (rank_sum.h), which is its score, its evidence
- * and, with a degree of freedom, its test; a group that has cutpoints then counts as one of C = 1 below.
+ * By ranks a feature has instead one statistic in each group (rank_sum.h), which is its score, its
+ * evidence and, with a degree of freedom, its test; a group that has cutpoints then counts as one
+ * of C = 1 below.
  *
- * The evidence of a feature and a cutpoint in a group is its score times the samples of the group (for
- * chi-square, which counts them already, the score). Two features may win:
- *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower action,
- *              then the earlier feature, then the lower cutpoint. Its table is tested (table_test.h), its
- *              p-value corrected by F times the sum of the groups' C.
- *   together   the one with the most evidence summed over the groups, in each at the cutpoint that is best
- *              there; of equals the earlier feature. The statistics of its tables (table_test.h) are added, with
- *              a degree of freedom for each group that it divides, its p-value is corrected by F times their
- *              C's multiplied.
- *              For what tells two situations apart mostly shows after each action, a little.
- * The lower p-value is the split's; where there is more than one group, so that two were made, it is
- * corrected by 2 (all these are Bonferroni's). F counts the features that divide some group. Under the
- * returns criterion a class has one group, its greedy action's, and the split is the published one.
+ * The evidence of a feature and a cutpoint in a group is its score times the samples of the group
+ * (for chi-square, which counts them already, the score). Two features may win:
+ *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower
+ * action, then the earlier feature, then the lower cutpoint. Its table is tested (table_test.h),
+ * its p-value corrected by F times the sum of the groups' C. together   the one with the most
+ * evidence summed over the groups, in each at the cutpoint that is best there; of equals the
+ * earlier feature. The statistics of its tables (table_test.h) are added, with a degree of freedom
+ * for each group that it divides, its p-value is corrected by F times their C's multiplied. For
+ * what tells two situations apart mostly shows after each action, a little. The lower p-value is
+ * the split's; where there is more than one group, so that two were made, it is corrected by 2 (all
+ * these are Bonferroni's). F counts the features that divide some group. Under the returns
+ * criterion a class has one group, its greedy action's, and the split is the published one.
  *
- * With config.gate the split must also raise the estimated return (gate.h). If it does not, the feature is set
- * aside and the best of the others is looked for, until one passes or none is left whose corrected p-value is below
- * 1. F counts those set aside, too, for they were tried. Of more than 64 candidates, what is set aside are all whose
- * numbers differ by multiples of 64, so that this takes a bit each and an end. */
+ * With config.gate the split must also raise the estimated return (gate.h). If it does not, the
+ * feature is set aside and the best of the others is looked for, until one passes or none is left
+ * whose corrected p-value is below 1. F counts those set aside, too, for they were tried. Of more
+ * than 64 candidates, what is set aside are all whose numbers differ by multiples of 64, so that
+ * this takes a bit each and an end. */
 #ifndef RLVC_SRC_SPLIT_SEARCH_H
 #define RLVC_SRC_SPLIT_SEARCH_H
 
@@ -80,9 +81,10 @@ typedef struct rlvc_workspace {
     uint32_t actions;
 } rlvc_workspace;
 
-/* Column j of the block, when all groups together have `words` words. An odd number of words apart, so that
- * the words of one place in all columns do not fall on the same lines of a cache. O(1). */
-static inline uint64_t *rlvc_workspace_column(const rlvc_workspace *space, uint32_t words, uint32_t j) {
+/* Column j of the block, when all groups together have `words` words. An odd number of words apart,
+ * so that the words of one place in all columns do not fall on the same lines of a cache. O(1). */
+static inline uint64_t *rlvc_workspace_column(const rlvc_workspace *space, uint32_t words,
+                                              uint32_t j) {
     return space->columns + (size_t)(words | 1u) * j;
 }
 
@@ -113,21 +115,21 @@ typedef struct rlvc_search {
     } inner;
     rlvc_single alone;
     rlvc_pool together;
-    uint64_t features;  /* F; with the domain's own oracle, what it considered in all */
-    uint32_t samples;   /* in the groups that take part */
-    uint32_t cuts;      /* in all groups */
-    uint32_t groups;    /* that take part */
-    uint32_t action;    /* the group at work */
-    uint32_t words;     /* of all groups */
-    uint32_t at;        /* sample of the group */
-    uint32_t lowest;    /* the key that began the present cluster of targets */
-    uint32_t first;     /* number of the block's first candidate */
-    uint32_t block;     /* candidates in the block */
-    uint32_t column;    /* of the block; at the gate: the number of its candidate */
-    uint32_t refused[2]; /* by the gate: bit n % 64 for candidate n */
+    uint64_t features;     /* F; with the domain's own oracle, what it considered in all */
+    uint32_t samples;      /* in the groups that take part */
+    uint32_t cuts;         /* in all groups */
+    uint32_t groups;       /* that take part */
+    uint32_t action;       /* the group at work */
+    uint32_t words;        /* of all groups */
+    uint32_t at;           /* sample of the group */
+    uint32_t lowest;       /* the key that began the present cluster of targets */
+    uint32_t first;        /* number of the block's first candidate */
+    uint32_t block;        /* candidates in the block */
+    uint32_t column;       /* of the block; at the gate: the number of its candidate */
+    uint32_t refused[2];   /* by the gate: bit n % 64 for candidate n */
     uint32_t alone_number; /* the winners' numbers among the candidates */
     uint32_t together_number;
-    float alone_log_p;    /* of the winners' statistics, not yet corrected */
+    float alone_log_p; /* of the winners' statistics, not yet corrected */
     float together_log_p;
     uint8_t phase;
     uint8_t done;
@@ -144,8 +146,8 @@ typedef struct rlvc_searching {
     uint8_t gate; /* config.gate */
 } rlvc_searching;
 
-/* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes the class,
- * and the workspace's groups are laid out.
+/* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes
+ * the class, and the workspace's groups are laid out.
  * @return the words of a column. O(actions). */
 uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *first,
                              rlvc_samples *view);
@@ -160,15 +162,15 @@ rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_s
 rlvc_status rlvc_searching_look(const rlvc_searching *searching, uint32_t slot, const void *feature,
                                 uint8_t *present);
 
-/* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the workspace's
- * samples. O(actions). */
+/* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the
+ * workspace's samples. O(actions). */
 void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first);
 
-/* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for each
- * sample marked or detected (with up to 64 features; without detect(), for each feature of each sample),
- * what sorting and the scan of each column are charged, one for each feature of a block,
- * RLVC_TEST_UNITS for each of the two p-values and for coming to the gate, two there for each sample
- * and action.
+/* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for
+ * each sample marked or detected (with up to 64 features; without detect(), for each feature of
+ * each sample), what sorting and the scan of each column are charged, one for each feature of a
+ * block, RLVC_TEST_UNITS for each of the two p-values and for coming to the gate, two there for
+ * each sample and action.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);
@@ -177,11 +179,13 @@ rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searchin
  * @return RLVC_OK; RLVC_E_CALLBACK. */
 rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *searching);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]);
 
 /* Once done: fills action, samples, log_tests, score and log_p of *about.
- * @return the feature, in the workspace; null if there is none to tell the samples apart. O(degrees). */
+ * @return the feature, in the workspace; null if there is none to tell the samples apart.
+ * O(degrees). */
 const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
                                rlvc_split *about);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The search for a feature that tells successors apart: see successor_search.h.
  *
- * Phases: the candidates are asked for (PROPOSE), and the column of each f is made (NOW). Then, for each g, its column over the successors (NEXT), in the
- * place of the cutpoints, and, for each f and each action, a table (COUNT, TABLE). The winner gets its
- * p-value (TEST). */
+ * Phases: the candidates are asked for (PROPOSE), and the column of each f is made (NOW). Then, for
+ * each g, its column over the successors (NEXT), in the place of the cutpoints, and, for each f and
+ * each action, a table (COUNT, TABLE). The winner gets its p-value (TEST). */
 #include "successor_search.h"
 
 #include "../base/popcount.h"
@@ -123,8 +123,9 @@ static uint32_t count(rlvc_succession *succession, const rlvc_workspace *space, 
     return to == from ? 1u : to - from; /* 1 for an empty group */
 }
 
-/* ln of the number of tests that a pair is corrected by (Bonferroni). Whether s' exhibits what s exhibits is
- * mostly told by s: the F pairs with g = f have half of the level, and the other F (F - 1) the other half. */
+/* ln of the number of tests that a pair is corrected by (Bonferroni). Whether s' exhibits what s
+ * exhibits is mostly told by s: the F pairs with g = f have half of the level, and the other F (F -
+ * 1) the other half. */
 static float log_tests(const rlvc_succession *succession, const rlvc_follows *pair) {
     float features = (float)succession->features;
     return rlvc_ln(2.0f * features * (pair->persists ? 1.0f : features - 1.0f));

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Aliasing by what follows: a class is aliased, too, if the same action leads from it to percepts of different
- * kinds, even while all targets are still alike. So a learner finds its way about before it knows what
- * pays, which is when rewards are seldom.
+/* Aliasing by what follows: a class is aliased, too, if the same action leads from it to percepts
+ * of different kinds, even while all targets are still alike. So a learner finds its way about
+ * before it knows what pays, which is when rewards are seldom.
  *
- * For features f of s and g of s', and each action, a 2 x 2 table counts the class's samples by whether s
- * exhibits f and s' exhibits g (after a terminated interaction there is no s', which exhibits nothing). The
- * statistics of the actions' tables that have two rows and two columns (table_test.h) are added up, with a degree
- * of freedom each. The p-value of each pair is corrected by a number of pairs (Bonferroni), fewer where
- * g = f. The pair wins whose statistic, less twice the logarithm of that number, is the largest (it goes
- * nearly as the p-value, which for each pair would cost too much), of equals the lower g, then the lower f;
- * and f is the split's feature.
- * If the class were one situation, then s' would not depend on f, whatever the distribution of either.
+ * For features f of s and g of s', and each action, a 2 x 2 table counts the class's samples by
+ * whether s exhibits f and s' exhibits g (after a terminated interaction there is no s', which
+ * exhibits nothing). The statistics of the actions' tables that have two rows and two columns
+ * (table_test.h) are added up, with a degree of freedom each. The p-value of each pair is corrected
+ * by a number of pairs (Bonferroni), fewer where g = f. The pair wins whose statistic, less twice
+ * the logarithm of that number, is the largest (it goes nearly as the p-value, which for each pair
+ * would cost too much), of equals the lower g, then the lower f; and f is the split's feature. If
+ * the class were one situation, then s' would not depend on f, whatever the distribution of either.
  *
- * The features are the default oracle's candidates for the class, which must fit into one block of columns. For
- * F features, N samples and A actions that costs O(F N) calls of exhibits() and O(F^2 (N / 64 + A)). */
+ * The features are the default oracle's candidates for the class, which must fit into one block of
+ * columns. For F features, N samples and A actions that costs O(F N) calls of exhibits() and O(F^2
+ * (N / 64 + A)). */
 #ifndef RLVC_SRC_SUCCESSOR_SEARCH_H
 #define RLVC_SRC_SUCCESSOR_SEARCH_H
 
@@ -47,14 +48,14 @@ typedef struct rlvc_succession {
     uint8_t done;
 } rlvc_succession;
 
-/* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the workspace's
- * samples. O(actions). */
+/* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the
+ * workspace's samples. O(actions). */
 void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *searching,
                            const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for the
- * candidates, one for each call of exhibits(), two for each 64 samples of a table, 24 for each table,
- * RLVC_TEST_UNITS for the p-value.
+ * candidates, one for each call of exhibits(), two for each 64 samples of a table, 24 for each
+ * table, RLVC_TEST_UNITS for the p-value.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,
                                  uint32_t budget, uint32_t *used);
@@ -63,10 +64,12 @@ rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searchi
  * @return RLVC_OK; RLVC_E_CALLBACK. */
 rlvc_status rlvc_succession_single(rlvc_succession *succession, const rlvc_searching *searching);
 
-/* How far the cursor has come, for a snapshot: the same only for the same state on the same input. */
+/* How far the cursor has come, for a snapshot: the same only for the same state on the same
+ * input. */
 void rlvc_succession_mark(const rlvc_succession *succession, uint32_t word[5]);
 
-/* Once done: fills action (= actions + 1), samples, log_tests, score (the statistic a sample) and log_p of
+/* Once done: fills action (= actions + 1), samples, log_tests, score (the statistic a sample) and
+ * log_p of
  * *about.
  * @return the feature, in the workspace; null if nothing could be told apart. O(1). */
 const void *rlvc_succession_result(const rlvc_succession *succession, const rlvc_workspace *space,

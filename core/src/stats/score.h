@@ -36,7 +36,8 @@
 float rlvc_score(uint8_t kind, uint32_t present_below, uint32_t absent_below,
                  uint32_t present_above, uint32_t absent_above);
 
-/* p ln(p / q) - (p - q) >= 0, for p >= 0 and q > 0, without cancelling where they nearly agree. O(1).
+/* p ln(p / q) - (p - q) >= 0, for p >= 0 and q > 0, without cancelling where they nearly agree.
+ * O(1).
  * @param difference, sum  p - q and p + q, as exactly as they are known */
 float rlvc_excess(float p, float q, float difference, float sum);
 

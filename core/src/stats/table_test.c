@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* Fisher's exact test of a 2 x 2 table.
  *
- * Were rows and columns independent, then, given the sums of rows and columns, N in all, a table with the cells
- * a, b, c, d would have the probability (it is hypergeometric)
+ * Were rows and columns independent, then, given the sums of rows and columns, N in all, a table
+ * with the cells a, b, c, d would have the probability (it is hypergeometric)
  *
  *     P = (a + b)! (c + d)! (a + c)! (b + d)! / (N! a! b! c! d!).
  *
- * The factorials nearly cancel. With n! = n^n e^-n sqrt(2 pi n) e^c(n), the powers leave the information gain, which
- * score.c computes without cancelling (g bits a sample), and the roots one logarithm:
+ * The factorials nearly cancel. With n! = n^n e^-n sqrt(2 pi n) e^c(n), the powers leave the
+ * information gain, which score.c computes without cancelling (g bits a sample), and the roots one
+ * logarithm:
  *
  *     ln P = 1/2 ln(product of the four sums / (2 pi N product of the four cells))
  *            + c of the four sums - c(N) - c of the four cells - N g ln 2.
  *
  * 0! = 1 comes out with 1 in place of n under the root.
  *
- * The tables on the same side are farther and farther from independence; where a d >= b c, the next has
- * a + 1, b - 1, c - 1, d + 1, and is b c / ((a + 1)(d + 1)) times as probable. The p-value is twice their sum. As the
- * least expected count is bounded, so is the work: a sum of some dozens of terms. */
+ * The tables on the same side are farther and farther from independence; where a d >= b c, the next
+ * has a + 1, b - 1, c - 1, d + 1, and is b c / ((a + 1)(d + 1)) times as probable. The p-value is
+ * twice their sum. As the least expected count is bounded, so is the work: a sum of some dozens of
+ * terms. */
 #include "table_test.h"
 
 #include "../base/float_math.h"
@@ -28,7 +30,8 @@
 #define LN_2 0.693147181f
 #define HALF_LN_2_PI 0.918938533f
 
-/* Below this expected count a table alone is tested exactly; in a sum, below that (Cochran 1954). */
+/* Below this expected count a table alone is tested exactly; in a sum, below that (Cochran
+ * 1954). */
 #define EXPECTED_ALONE 5u
 #define EXPECTED_IN_SUM 1u
 

@@ -60,7 +60,8 @@ static int phase_is_possible(const rlvc_agent *agent) {
     }
 }
 
-/* Is the database what rlvc_replay_freeze made of some ring: does each s' in it have a label to come? */
+/* Is the database what rlvc_replay_freeze made of some ring: does each s' in it have a label to
+ * come? */
 static int database_is_sound(const rlvc_agent *agent) {
     const rlvc_replay *replay = &agent->replay;
     uint32_t end = agent->learner.end;
@@ -82,11 +83,10 @@ static int labels_are_sound(const rlvc_agent *agent) {
     return 1;
 }
 
-/* Where `pending` names a class, that was split from this one. (While prioritized sweeping is under way
- * priorities stand there, of which any will do.) */
+/* Where `pending` names a class, that was split from this one. (While prioritized sweeping is under
+ * way priorities stand there, of which any will do.) */
 static int pending_is_sound(const rlvc_agent *agent) {
-    if (agent->config.solver == RLVC_SOLVER_PRIORITIZED &&
-        agent->learner.phase == RLVC_PHASE_SOLVE)
+    if (agent->config.solver == RLVC_SOLVER_PRIORITIZED && agent->learner.phase == RLVC_PHASE_SOLVE)
         return 1;
     for (uint32_t c = 0; c < agent->tree.classes; c++) {
         uint32_t made = agent->pending[c];

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The log of interactions.
  *
- * A record is a mark, a byte of kind and flags, a sequence number, a content whose length follows from
- * these, and the CRC of all before it (SPEC.md). The reader takes what begins with the mark for a record
- * until that proves wrong; then it goes on looking one byte later, in what it has already read, so that
- * no whole record is ever lost to a false beginning. */
+ * A record is a mark, a byte of kind and flags, a sequence number, a content whose length follows
+ * from these, and the CRC of all before it (SPEC.md). The reader takes what begins with the mark
+ * for a record until that proves wrong; then it goes on looking one byte later, in what it has
+ * already read, so that no whole record is ever lost to a false beginning. */
 #include "rlvc/log.h"
 
 #include "../base/bytes.h"
@@ -34,8 +34,9 @@ static int reward_is_sound(float reward) {
 
 /* ------------------------------------------------------------------ writing */
 
-/* Writes a record: its head and `count` bytes of content at `bytes` (with HEAD_BYTES free before them),
- * then a percept, if any. The sequence number goes on also if that fails, for a reader to see it. */
+/* Writes a record: its head and `count` bytes of content at `bytes` (with HEAD_BYTES free before
+ * them), then a percept, if any. The sequence number goes on also if that fails, for a reader to
+ * see it. */
 static rlvc_status put(rlvc_log_writer *writer, uint32_t kind, unsigned char *record,
                        uint32_t count, const void *percept) {
     unsigned char end[CRC_BYTES];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What a snapshot holds, in order: see SPEC.md.
  *
- * Each part is one function that passes its fields through a stream, whichever way that goes. Where what
- * is loaded decides how much there is to come, it is checked at once; the rest is checked at the end. */
+ * Each part is one function that passes its fields through a stream, whichever way that goes. Where
+ * what is loaded decides how much there is to come, it is checked at once; the rest is checked at
+ * the end. */
 #include "rlvc/snapshot.h"
 
 #include "../agent/config.h"
@@ -292,11 +293,9 @@ static int same_config(const rlvc_config *a, const rlvc_config *b) {
            a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
            a->score == b->score && a->solver == b->solver && a->untried == b->untried &&
            a->continuing == b->continuing && a->successors == b->successors &&
-           a->explore == b->explore && a->gate == b->gate &&
-           same_float(a->discount, b->discount) &&
+           a->explore == b->explore && a->gate == b->gate && same_float(a->discount, b->discount) &&
            same_float(a->epsilon, b->epsilon) && same_float(a->alpha, b->alpha) &&
-           same_float(a->alpha_known, b->alpha_known) &&
-           same_float(a->tolerance, b->tolerance) &&
+           same_float(a->alpha_known, b->alpha_known) && same_float(a->tolerance, b->tolerance) &&
            same_float(a->learning_rate, b->learning_rate) &&
            same_float(a->optimistic_value, b->optimistic_value);
 }

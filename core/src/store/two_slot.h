@@ -2,10 +2,10 @@
 /* The two slots of a store, and the bytes of one snapshot as a stream.
  *
  * A snapshot is a head of 16 bytes (the letters RLVS, version, sequence number, bytes in all), its
- * content, zeros, and in its last four bytes the CRC of all that is before them. It is whole if the CRC is
- * right, of two that are whole the one with the higher sequence number is the newer, and writing goes to
- * the slot that does not hold the newest whole one. So no write touches what would have to be fallen back
- * upon, and no order of writes matters within a slot. */
+ * content, zeros, and in its last four bytes the CRC of all that is before them. It is whole if the
+ * CRC is right, of two that are whole the one with the higher sequence number is the newer, and
+ * writing goes to the slot that does not hold the newest whole one. So no write touches what would
+ * have to be fallen back upon, and no order of writes matters within a slot. */
 #ifndef RLVC_SRC_TWO_SLOT_H
 #define RLVC_SRC_TWO_SLOT_H
 
@@ -24,8 +24,8 @@ rlvc_status rlvc_slots_newest(const rlvc_store *store, rlvc_slot *slot);
 
 enum { RLVC_STREAM_COUNT, RLVC_STREAM_SAVE, RLVC_STREAM_LOAD };
 
-/* The content of a snapshot on its way: the same calls, in the same order, count it, save it and load it,
- * so that the three cannot differ. The first failure sticks. */
+/* The content of a snapshot on its way: the same calls, in the same order, count it, save it and
+ * load it, so that the three cannot differ. The first failure sticks. */
 typedef struct rlvc_stream {
     const rlvc_store *store;
     uint32_t base; /* offset of the slot */
@@ -60,7 +60,8 @@ void rlvc_stream_u64(rlvc_stream *stream, uint64_t *number);
 void rlvc_stream_float(rlvc_stream *stream, float *number);
 
 /* Passes the zeros and the CRC; saving ends with sync().
- * @return RLVC_OK; RLVC_E_STORE; RLVC_E_DAMAGED: what was loaded is not a whole snapshot of this content. */
+ * @return RLVC_OK; RLVC_E_STORE; RLVC_E_DAMAGED: what was loaded is not a whole snapshot of this
+ * content. */
 rlvc_status rlvc_stream_end(rlvc_stream *stream);
 
 #endif

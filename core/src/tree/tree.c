@@ -30,8 +30,8 @@ rlvc_status rlvc_tree_descend(const rlvc_tree *tree, const rlvc_domain *domain, 
     return RLVC_OK;
 }
 
-rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain, const void *percept,
-                               uint32_t *class_id) {
+rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain,
+                               const void *percept, uint32_t *class_id) {
     uint32_t node = 0;
     while (!rlvc_tree_is_leaf(tree, node)) {
         rlvc_status status = rlvc_tree_descend(tree, domain, percept, &node);
@@ -88,8 +88,8 @@ static int split_is_sound(const rlvc_tree *tree, uint32_t j) {
            split->about.class_id <= j;
 }
 
-/* Is a node a leaf of some class, or the node of some split? With sound splits every way down the tree
- * then leads to younger nodes, and ends. */
+/* Is a node a leaf of some class, or the node of some split? With sound splits every way down the
+ * tree then leads to younger nodes, and ends. */
 static int node_is_sound(const rlvc_tree *tree, uint32_t node) {
     if (rlvc_tree_is_leaf(tree, node))
         return rlvc_tree_class(tree, node) < tree->classes;

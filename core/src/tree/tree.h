@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The classifier: a binary decision tree (section 4.3). Classes are its leaves; an internal node tests
- * the presence of one feature.
+/* The classifier: a binary decision tree (section 4.3). Classes are its leaves; an internal node
+ * tests the presence of one feature.
  *
- * The tree only grows, and by splits alone, so its layout is its history: split j turns one leaf into an
- * internal node and appends two nodes, 2j + 1 for the percepts without the feature and 2j + 2 for those
- * with it. The former keep their class; the latter get the new class j + 1. Hence the chain of absent
- * children that begins at node 2c ends in the leaf of class c. */
+ * The tree only grows, and by splits alone, so its layout is its history: split j turns one leaf
+ * into an internal node and appends two nodes, 2j + 1 for the percepts without the feature and 2j +
+ * 2 for those with it. The former keep their class; the latter get the new class j + 1. Hence the
+ * chain of absent children that begins at node 2c ends in the leaf of class c. */
 #ifndef RLVC_SRC_TREE_H
 #define RLVC_SRC_TREE_H
 
@@ -60,8 +60,8 @@ rlvc_status rlvc_tree_descend(const rlvc_tree *tree, const rlvc_domain *domain, 
 
 /* The class of a percept. O(depth) calls of exhibits().
  * @return RLVC_OK; RLVC_E_CALLBACK: *class_id unchanged. */
-rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain, const void *percept,
-                               uint32_t *class_id);
+rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain,
+                               const void *percept, uint32_t *class_id);
 
 /* Splits the leaf of about->class_id by a feature, which is copied; needs classes < classes_max.
  * O(depth). */
@@ -72,8 +72,8 @@ static inline uint32_t rlvc_tree_parent(const rlvc_tree *tree, uint32_t node) {
     return tree->split[(node - 1u) / 2u].node;
 }
 
-/* The node that follows in pre-order (absent before present), or 0 after the last. O(depth), without a
- * stack: a walk over the whole tree is amortized O(1) a node. */
+/* The node that follows in pre-order (absent before present), or 0 after the last. O(depth),
+ * without a stack: a walk over the whole tree is amortized O(1) a node. */
 uint32_t rlvc_tree_walk(const rlvc_tree *tree, uint32_t node);
 
 /* Tests above a node. O(depth). */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The tables of the class-level decision process: Q by class and action, V and the policy by class. */
+/* The tables of the class-level decision process: Q by class and action, V and the policy by
+ * class. */
 #ifndef RLVC_SRC_VALUES_H
 #define RLVC_SRC_VALUES_H
 
@@ -8,11 +9,12 @@
 typedef struct rlvc_values {
     float *q;        /* [classes_max][actions] Q(c, a) */
     float *reward;   /* [classes_max][actions] mean reward; the batch solvers' */
-    float *target;   /* [classes_max] V as the targets of a learning step have it. A batch solver's is
-                        `value`; an incremental one's changes with each observation, so that a copy is
-                        kept, in `reward`, for which it has no use */
+    float *target;   /* [classes_max] V as the targets of a learning step have it. A batch
+                        solver's is `value`; an incremental one's changes with each observation,
+                        so that a copy is kept, in `reward`, for which it has no use */
     uint32_t *tried; /* [classes_max][actions] interactions behind Q(c, a); 0: untried */
-    uint32_t *first; /* [classes_max * actions + 1] where the samples of (c, a) begin: see grouping.h */
+    uint32_t *first; /* [classes_max * actions + 1] where the samples of (c, a) begin: see
+                        grouping.h */
     float *value;    /* [classes_max] V(c) */
     uint8_t *policy; /* [classes_max] the greedy action of the last solution */
     uint8_t *trial;  /* [classes_max] the policy under evaluation (policy iteration) */
@@ -28,14 +30,16 @@ void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config
 void rlvc_values_clear(rlvc_values *values);
 
 /* Where the pair (c, a) stands in a table. O(1). */
-static inline size_t rlvc_values_pair(const rlvc_values *values, uint32_t class_id, uint32_t action) {
+static inline size_t rlvc_values_pair(const rlvc_values *values, uint32_t class_id,
+                                      uint32_t action) {
     return (size_t)class_id * values->actions + action;
 }
 
 /* Gives a new class what is known of the class that it was split from. O(actions). */
 void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_class);
 
-/* Makes every action of a class untried: the interactions behind its Q were not its own. O(actions). */
+/* Makes every action of a class untried: the interactions behind its Q were not its own.
+ * O(actions). */
 void rlvc_values_forget(rlvc_values *values, uint32_t class_id);
 
 /* Is the pair part of the maximum over actions? O(1). */
@@ -43,8 +47,8 @@ static inline int rlvc_values_counts(const rlvc_values *values, size_t pair) {
     return values->tried[pair] > 0 || values->optimistic;
 }
 
-/* The greedy action argmax_a Q(c, a) among the pairs that count; of equals the lowest. If none counts,
- * the one that was greedy before. O(actions). */
+/* The greedy action argmax_a Q(c, a) among the pairs that count; of equals the lowest. If none
+ * counts, the one that was greedy before. O(actions). */
 uint32_t rlvc_values_greedy(const rlvc_values *values, uint32_t class_id);
 
 /* max_a Q(c, a) likewise; V(c) as it was if no pair counts. O(actions). */
