@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // A camera learns what to do about what it sees, from rewards alone, and then does it.
 //
-//     05_camera learn MODEL SOURCE SOURCE ...    frames of the n-th source, from 0, call for action n
+//     05_camera learn MODEL SOURCE SOURCE ...    frames of source n, from 0, call for action n
 //     05_camera run MODEL SOURCE [--overlay DIR] prints the class and the action of each frame
 //
-// A source is a folder of frames, a video file, or the number of a camera, of which learning takes 200
-// frames and running all until the user stops it. While learning, each frame is an episode of one
-// interaction: the agent acts at random, and is paid 1 if it did what the source calls for, 0 if not. It is
-// never told which action that would have been. The overlay shows the frame's points, and, in another colour,
-// those that the tree's tests found on its way to the class. MODEL.metric and MODEL.agent keep what was learnt.
+// A source is a folder of frames, a video file, or the number of a camera, of which learning takes
+// 200 frames and running all until the user stops it. While learning, each frame is an episode of
+// one interaction: the agent acts at random, and is paid 1 if it did what the source calls for, 0
+// if not. It is never told which action that would have been. The overlay shows the frame's points,
+// and, in another colour, those that the tree's tests found on its way to the class. MODEL.metric
+// and MODEL.agent keep what was learnt.
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -291,8 +292,8 @@ void learn(const std::string &model, const std::vector<std::string> &sources) {
                 interactions, statistics.classes);
 }
 
-// Walks down the tree as the agent does, marking where its tests found their features. Split j of class c
-// leaves what lacks the feature in c, and gives what has it the new class j + 1.
+// Walks down the tree as the agent does, marking where its tests found their features. Split j of
+// class c leaves what lacks the feature in c, and gives what has it the new class j + 1.
 void draw(cv::Mat &frame, const Eye &eye, const rlvc_agent *agent, const void *percept,
           const std::string &text) {
     const rlvc_domain &domain = eye.domain();

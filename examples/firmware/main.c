@@ -4,8 +4,9 @@
  *     settings  what is learnt by, and what a tick may take      robot   a tick of the control loop
  *     report    what was learnt                                  port    what the machine tells
  *
- * What it prints ends in an object of JSON, the same on every machine. Exit status: 0 if no tick overran
- * and, under the residual criterion, every cell's action is the best one at the end; else 1. */
+ * What it prints ends in an object of JSON, the same on every machine. Exit status: 0 if no tick
+ * overran and, under the residual criterion, every cell's action is the best one at the end; else
+ * 1. */
 #include "port.h"
 #include "report.h"
 #include <stdio.h>

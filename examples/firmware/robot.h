@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* A simulated robot that learns its way through Sutton's maze, in a control loop of a fixed period.
  *
- * Each tick the robot senses and acts, and then lends the learner a slice of work, if there is any. It
- * explores until the interactions for the next learning step are there. While that step is under way,
- * which takes many ticks, it patrols: it does what it has learnt so far, elsewhere in the maze, and what
- * happens there is not recorded. So what is learnt does not depend on how learning is sliced. */
+ * Each tick the robot senses and acts, and then lends the learner a slice of work, if there is any.
+ * It explores until the interactions for the next learning step are there. While that step is under
+ * way, which takes many ticks, it patrols: it does what it has learnt so far, elsewhere in the
+ * maze, and what happens there is not recorded. So what is learnt does not depend on how learning
+ * is sliced. */
 #ifndef FIRMWARE_ROBOT_H
 #define FIRMWARE_ROBOT_H
 

@@ -43,8 +43,8 @@
 #define SLICE 64u
 #endif
 
-/* What a slice and a tick may take, in instructions of the processor; a tick that takes longer is an
- * overrun. (RISC-V without a floating-point unit needs twice as many for its arithmetic.) */
+/* What a slice and a tick may take, in instructions of the processor; a tick that takes longer is
+ * an overrun. (RISC-V without a floating-point unit needs twice as many for its arithmetic.) */
 #if defined(__riscv) && !defined(__riscv_flen)
 #define SLICE_INSTRUCTIONS 45000u
 #define TICK_INSTRUCTIONS 50000u

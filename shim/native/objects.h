@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The objects of the Tiled Gridworld (examples/gridworld/objects) for the Python package: pictures in, pixels
- * out. A library of its own, since it reads files by OpenCV; shim/rlvc/objects.py declares it. */
+/* The objects of the Tiled Gridworld (examples/gridworld/objects) for the Python package: pictures
+ * in, pixels out. A library of its own, since it reads files by OpenCV; shim/rlvc/objects.py
+ * declares it. */
 #ifndef RLVC_SHIM_OBJECTS_H
 #define RLVC_SHIM_OBJECTS_H
 
@@ -15,7 +16,8 @@ extern "C" {
 
 typedef struct rlvc_shim_objects rlvc_shim_objects;
 
-/* Finds objects that are there from each of `count` angles: those of a folder, or `wanted` rendered ones.
+/* Finds objects that are there from each of `count` angles: those of a folder, or `wanted` rendered
+ * ones.
  * @param folder  UTF-8; empty: rendered
  * @param wanted  at least so many
  * @param text    gets what was wrong, in `room` bytes; longer text is cut

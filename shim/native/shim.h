@@ -20,8 +20,8 @@ typedef struct rlvc_shim_entry {
 
 RLVC_API const rlvc_shim_entry *rlvc_shim_layout(void);
 
-/* The loops below stop at the first element that fails and answer its status; *done is its index, or
- * `count`. What was done before stands. `bytes` is the size of a percept's record. */
+/* The loops below stop at the first element that fails and answer its status; *done is its index,
+ * or `count`. What was done before stands. `bytes` is the size of a percept's record. */
 
 /* rlvc_predict for each of `count` percepts.
  * @param classes, actions [count], each optional */
@@ -47,13 +47,13 @@ typedef struct rlvc_shim_log {
     uint32_t resume; /* 1: the first goes on from the agent's percept; 0: it begins an episode */
 } rlvc_shim_log;
 
-/* rlvc_begin and rlvc_act for each percept, that of each environment of a vector: fills log->choices.
- * Looks at percepts, count and bytes alone. */
+/* rlvc_begin and rlvc_act for each percept, that of each environment of a vector: fills
+ * log->choices. Looks at percepts, count and bytes alone. */
 RLVC_API rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
 
-/* rlvc_observe for each interaction of a log. Where one goes on and the next begins at the very percept
- * that it led to, they are of one episode; else the next one begins an episode. All are looked at
- * before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done. */
+/* rlvc_observe for each interaction of a log. Where one goes on and the next begins at the very
+ * percept that it led to, they are of one episode; else the next one begins an episode. All are
+ * looked at before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done. */
 RLVC_API rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
 
 /* A log of interactions as rlvc/log.h has it, as arrays of `interactions` elements. */
@@ -72,8 +72,9 @@ typedef struct rlvc_shim_records {
 #define RLVC_SHIM_RECORDS_PERCEPT (1u << 20) /* bytes of the largest percept */
 #define RLVC_SHIM_RECORDS_ROOM (RLVC_SHIM_RECORDS_PERCEPT + 13u)
 
-/* Reads a log of `count` bytes: everything but the arrays of *records, and these too, unless choices and
- * ends are null. A record cut short is passed over if nothing or a header comes after it.
+/* Reads a log of `count` bytes: everything but the arrays of *records, and these too, unless
+ * choices and ends are null. A record cut short is passed over if nothing or a header comes after
+ * it.
  * @param buffer  [RLVC_SHIM_RECORDS_ROOM]
  * @param current [RLVC_SHIM_RECORDS_PERCEPT]
  * @return RLVC_OK; RLVC_E_DAMAGED: bytes or records are missing in between; RLVC_E_VERSION,
@@ -88,7 +89,8 @@ RLVC_API rlvc_status rlvc_shim_records_read(const unsigned char *bytes, size_t c
 RLVC_API rlvc_status rlvc_shim_tables(const rlvc_agent *agent, uint32_t classes, uint32_t actions,
                                       float *q, uint32_t *samples, float *values, uint32_t *policy);
 
-/* Nothing, with the arguments of rlvc_act and rlvc_observe: what a call from Python costs at least. */
+/* Nothing, with the arguments of rlvc_act and rlvc_observe: what a call from Python costs at
+ * least. */
 RLVC_API rlvc_status rlvc_shim_empty_act(rlvc_agent *agent, rlvc_choice *choice);
 RLVC_API rlvc_status rlvc_shim_empty_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
                                              const void *next, uint8_t end);

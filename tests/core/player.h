@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* An agent in a small maze, for tests: its block of memory, of which every byte counts, the domain in
- * its several forms, a player, and what was learnt as a string of bytes. Include after cmocka.h. */
+/* An agent in a small maze, for tests: its block of memory, of which every byte counts, the
+ * domain in its several forms, a player, and what was learnt as a string of bytes. Include after
+ * cmocka.h. */
 #ifndef RLVC_TESTS_PLAYER_H
 #define RLVC_TESTS_PLAYER_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* For tests of snapshots: an agent and another that is loaded from its snapshots. Include after cmocka.h. */
+/* For tests of snapshots: an agent and another that is loaded from its snapshots. Include after
+ * cmocka.h. */
 #ifndef RLVC_TESTS_SNAPSHOTS_H
 #define RLVC_TESTS_SNAPSHOTS_H
 

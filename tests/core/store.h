@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A store in memory for tests of snapshots: it can lose its power at any byte that is written, fail at any
- * call, and insist on being erased as flash does. Include after cmocka.h. */
+/* A store in memory for tests of snapshots: it can lose its power at any byte that is written, fail
+ * at any call, and insist on being erased as flash does. Include after cmocka.h. */
 #ifndef RLVC_TESTS_STORE_H
 #define RLVC_TESTS_STORE_H
 

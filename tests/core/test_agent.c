@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The agent: its memory, how it acts, what it takes in and what it tells; each error leaves every byte
- * of its block as it was. */
+/* The agent: its memory, how it acts, what it takes in and what it tells; each error leaves every
+ * byte of its block as it was. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -173,8 +173,8 @@ static void test_epsilon(void **state) {
     }
 }
 
-/* Exploitation comes in runs of k + 1 under the returns criterion, of 1 under the residual one; a run
- * ends with its episode, and goes on through a terminated one if the task is continuing. */
+/* Exploitation comes in runs of k + 1 under the returns criterion, of 1 under the residual one; a
+ * run ends with its episode, and goes on through a terminated one if the task is continuing. */
 static void test_runs(void **state) {
     (void)state;
     const unsigned char percept[8] = ZERO_BYTES;

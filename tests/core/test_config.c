@@ -62,8 +62,9 @@ static void test_defaults(void **state) {
     assert_int_equal(config.untried, RLVC_UNTRIED_EXCLUDED);
     assert_int_equal(config.continuing, 0);
     assert_int_equal(config.gate, 0);
-    const float numbers[] = {config.discount,  config.epsilon,       config.alpha,
-                             config.alpha_known, config.tolerance, config.learning_rate, config.optimistic_value};
+    const float numbers[] = {config.discount,        config.epsilon,   config.alpha,
+                             config.alpha_known,     config.tolerance, config.learning_rate,
+                             config.optimistic_value};
     const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f, 0.0f};
     assert_memory_equal(numbers, expected, sizeof expected);
 }
@@ -152,7 +153,10 @@ static void test_numbers(void **state) {
          {zero, -zero, least, one},
          {-least, beyond_one, nan, infinity}},
         {"alpha", &config.alpha, {least, 0.5f, 0.05f, one}, {zero, beyond_one, nan, -one}},
-        {"alpha_known", &config.alpha_known, {least, 0.5f, 0.05f, one}, {zero, beyond_one, nan, -one}},
+        {"alpha_known",
+         &config.alpha_known,
+         {least, 0.5f, 0.05f, one},
+         {zero, beyond_one, nan, -one}},
         {"tolerance", &config.tolerance, {least, one, 10.0f, most}, {zero, beyond, nan, -one}},
         {"learning_rate",
          &config.learning_rate,
@@ -223,7 +227,8 @@ static void test_successors(void **state) {
     }
 }
 
-/* An oracle is asked about cutpoints, and ranks have none; and a count cubed must fit into 64 bits. */
+/* An oracle is asked about cutpoints, and ranks have none; and a count cubed must fit into 64
+ * bits. */
 static void test_ranks(void **state) {
     (void)state;
     make();
@@ -260,9 +265,9 @@ static void test_gate(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults), cmocka_unit_test(test_null),
-        cmocka_unit_test(test_counts),   cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_callbacks),
+        cmocka_unit_test(test_defaults),   cmocka_unit_test(test_null),
+        cmocka_unit_test(test_counts),     cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_numbers),    cmocka_unit_test(test_callbacks),
         cmocka_unit_test(test_successors), cmocka_unit_test(test_ranks),
         cmocka_unit_test(test_gate),
     };

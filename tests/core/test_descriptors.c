@@ -165,8 +165,8 @@ static void test_edge_of_radius(void **state) {
     }
 }
 
-/* A candidate is a vector of a percept, or refused; none is there twice; asking in blocks of another
- * size changes nothing but what is seen as twice. */
+/* A candidate is a vector of a percept, or refused; none is there twice; asking in blocks of
+ * another size changes nothing but what is seen as twice. */
 static void check_candidates(uint32_t m) {
     const uint32_t vector_bytes = RLVC_DESCRIPTORS_VECTOR_BYTES(f.d.dimensions, f.d.form);
     for (uint32_t j = 0; j < m; j++) {
@@ -461,8 +461,9 @@ static void test_learning(void **state) {
     }
 }
 
-/* Of 1024 samples every other one is measured: none of those is near what only the others have, so that a
- * radius for it has nothing on this side, nor is there anything beyond what they all have. */
+/* Of 1024 samples every other one is measured: none of those is near what only the others have,
+ * so that a radius for it has nothing on this side, nor is there anything beyond what they all
+ * have. */
 static void test_gap_without_a_near_side(void **unused) {
     (void)unused;
     static rlvc_sample sample[1024];

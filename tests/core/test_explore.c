@@ -52,7 +52,8 @@ static void check_shares(uint32_t class_id, const double share[ACTIONS]) {
     }
 }
 
-/* Before the first learning step all is drawn, by (1 + n)^-4 and four times as often if it was the last. */
+/* Before the first learning step all is drawn, by (1 + n)^-4 and four times as often if it was the
+ * last. */
 static void test_weights(void **state) {
     (void)state;
     make();
@@ -129,7 +130,7 @@ static void test_check(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_weights), cmocka_unit_test(test_going_after),
+        cmocka_unit_test(test_weights),  cmocka_unit_test(test_going_after),
         cmocka_unit_test(test_counting), cmocka_unit_test(test_least),
         cmocka_unit_test(test_check),
     };

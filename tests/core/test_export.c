@@ -164,8 +164,8 @@ static void make_percept(uint32_t set, uint32_t form, uint32_t percept[PERCEPT_B
         }
 }
 
-/* An agent that has learnt to act by the first two vectors where the first is absent, else by all three;
- * or, if it knows one percept only, that there is nothing to tell apart. */
+/* An agent that has learnt to act by the first two vectors where the first is absent, else by all
+ * three; or, if it knows one percept only, that there is nothing to tell apart. */
 static rlvc_agent *make_of_vectors(uint32_t form, uint32_t actions, uint32_t percepts) {
     static rlvc_descriptors descriptors;
     static const uint8_t wanted[8] = {0, 2, 1, 3, 0, 4, 1, 5};

@@ -78,7 +78,8 @@ static rlvc_status solve(const problem *p, rlvc_fewest_tree *tree) {
     return status;
 }
 
-/* Rows of `used` features, which are `apart` columns apart, with sets of some of `actions` actions. */
+/* Rows of `used` features, which are `apart` columns apart, with sets of some of `actions`
+ * actions. */
 static void draw(problem *p, rlvc_rng *rng, uint32_t used, uint32_t apart, uint32_t actions) {
     memset(p, 0, sizeof *p);
     p->task.row = p->row;

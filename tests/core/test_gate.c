@@ -35,7 +35,8 @@ static int passes(float gap) {
     return passed;
 }
 
-/* By how much the best lower bound of a side exceeds the upper one of the greedy action, on the better side. */
+/* By how much the best lower bound of a side exceeds the upper one of the greedy action, on the
+ * better side. */
 static double margin(void) {
     double most[2] = {-HUGE_VAL, -HUGE_VAL}, enough[2] = {HUGE_VAL, HUGE_VAL}, highest = -HUGE_VAL;
     for (uint32_t a = 0; a < ACTIONS; a++) {

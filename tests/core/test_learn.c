@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Learning: the same whatever the budgets, and whatever fails on the way, for each criterion, solver
- * and form of the domain; a full tree; interactions observed while learning. */
+/* Learning: the same whatever the budgets, and whatever fails on the way, for each criterion,
+ * solver and form of the domain; a full tree; interactions observed while learning. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -137,7 +137,8 @@ static void test_every_callback_fails(void **state) {
             if (memcmp(p.block, other.block, sizeof p.block) != 0)
                 fail_msg("another result after callback %u failed", (unsigned)n);
         }
-        /* A sample is looked at by all features of a block at once: so many calls in a row must succeed. */
+        /* A sample is looked at by all features of a block at once: so many calls in a row must
+         * succeed. */
         for (uint64_t n = p.config.features_at_once + 1u; n < 11u; n++) {
             learn_with_failures(n, n % 2u == 0 ? RLVC_BUDGET_UNBOUNDED : 97);
             assert_memory_equal(p.block, other.block, sizeof p.block);
@@ -196,7 +197,8 @@ static int none(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t
     return 0;
 }
 
-/* Interactions without a reward, whose percept changes at every tenth: what follows is foretold by it. */
+/* Interactions without a reward, whose percept changes at every tenth: what follows is foretold by
+ * it. */
 static void change_seldom(uint32_t interactions) {
     const rlvc_choice choice = {0, 1};
     for (uint32_t i = 0; i < interactions; i++) {
@@ -247,8 +249,8 @@ static void test_slices_of_what_follows(void **state) {
 
 /* ------------------------------------------------------------------ the value gate */
 
-/* A class in which bit 0 tells what each action is worth, and bit 4 which of two is better: the gate sets the one
- * aside and lets the other pass. */
+/* A class in which bit 0 tells what each action is worth, and bit 4 which of two is better: the
+ * gate sets the one aside and lets the other pass. */
 static void prepare_gate(int form) {
     player_enter_world(&p, form);
     p.config.actions = 2;
@@ -325,10 +327,10 @@ static void test_detectors_and_blocks(void **state) {
     }
 }
 
-/* ------------------------------------------------------------------ the ring and the tree fill up */
+/* ---------------------------------------------------------------- the ring and the tree fill up */
 
-/* Between two episodes there is no current percept, and the ring may hold one interaction more than its
- * capacity: what is learnt from them is what a larger ring learns from the same. */
+/* Between two episodes there is no current percept, and the ring may hold one interaction more than
+ * its capacity: what is learnt from them is what a larger ring learns from the same. */
 static void test_every_slot_terminated(void **state) {
     (void)state;
     for (uint32_t capacity = 127; capacity < 131u; capacity++) {

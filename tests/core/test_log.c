@@ -183,8 +183,8 @@ static void test_golden(void **state) {
 
 /* ------------------------------------------------------------------ damage */
 
-/* Reads all there is and fails unless it is a part of what was written, in order, and could be played.
- * Returns how many records came as they were written. */
+/* Reads all there is and fails unless it is a part of what was written, in order, and could be
+ * played. Returns how many records came as they were written. */
 static uint32_t read_what_is_left(void) {
     uint32_t i = 0, whole = 0;
     int open = 0;

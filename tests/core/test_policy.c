@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Policies made of agents: what they do at each percept, what they refuse, and callbacks that fail. */
+/* Policies made of agents: what they do at each percept, what they refuse, and callbacks that
+ * fail. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,8 +20,8 @@ static uint64_t saved[sizeof block / sizeof *block];
 static uint64_t place[1u << 15];
 static faulty broken;
 
-/* What an action earns at a percept: bit 0 is worth most, the others say what to do. Where bit 2 alone is
- * 1, action 1 is a little worse than action 0. */
+/* What an action earns at a percept: bit 0 is worth most, the others say what to do. Where bit 2
+ * alone is 1, action 1 is a little worse than action 0. */
 static float reward_of(unsigned percept, uint32_t action) {
     const uint32_t right = (percept >> 1 & 1u) & (percept >> 2 & 1u);
     const float good = action == right ? 1.0f : percept >> 1 == 2u ? 0.9f : 0.0f;
@@ -179,7 +180,8 @@ static void test_many_percepts(void **unused) {
     assert_int_equal(info.percepts, 8);
 }
 
-/* Nothing is smaller than the collapsed tree, which then is taken: it is the agent's at percepts never seen. */
+/* Nothing is smaller than the collapsed tree, which then is taken: it is the agent's at percepts
+ * never seen. */
 static void test_nothing_smaller(void **unused) {
     (void)unused;
     rlvc_policy_info info;

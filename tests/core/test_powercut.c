@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The power fails at every byte that is written or erased while an agent is saved, over RLVC_POWER_CYCLES
- * cycles of learning and saving: what is loaded then is the older or the newer of two agents, and goes on to
- * the same tree.
+/* The power fails at every byte that is written or erased while an agent is saved, over
+ * RLVC_POWER_CYCLES cycles of learning and saving: what is loaded then is the older or the newer of
+ * two agents, and goes on to the same tree.
  *
- * An agent that is loaded lies in memory that was filled beforehand, so that all its bytes follow from the
- * snapshot: two that agree in all of them do the same for ever. So it is enough that each cut leaves one of two
- * images, byte for byte, and that each image, once, goes on to the end of the course. */
+ * An agent that is loaded lies in memory that was filled beforehand, so that all its bytes follow
+ * from the snapshot: two that agree in all of them do the same for ever. So it is enough that each
+ * cut leaves one of two images, byte for byte, and that each image, once, goes on to the end of the
+ * course. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,8 +37,8 @@ static void live_on(player *of, uint32_t cycle, player_result *result) {
     player_result_of(of, result);
 }
 
-/* The memory of an agent that was loaded from a whole snapshot of the agent as it is at the beginning of a
- * cycle; and to that end of the course it comes which is expected. */
+/* The memory of an agent that was loaded from a whole snapshot of the agent as it is at the
+ * beginning of a cycle; and to that end of the course it comes which is expected. */
 static void image_of(uint32_t cycle, unsigned char *image) {
     rlvc_store store = medium_store(&spare, &p.config, &p.domain, 0);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
@@ -49,8 +50,8 @@ static void image_of(uint32_t cycle, unsigned char *image) {
     assert_memory_equal(&got, &expected, sizeof got);
 }
 
-/* Saves, with a cut before the byte number `cut` of those to be written; returns 0 if it came too late. Adds to
- * *early the cuts after which the newer agent was there already. */
+/* Saves, with a cut before the byte number `cut` of those to be written; returns 0 if it came too
+ * late. Adds to *early the cuts after which the newer agent was there already. */
 static int cut_at(const rlvc_store *store, uint32_t cycle, uint64_t cut, uint32_t *early) {
     m.power = m.written + cut;
     rlvc_status status = rlvc_save(p.agent, store);
@@ -65,7 +66,8 @@ static int cut_at(const rlvc_store *store, uint32_t cycle, uint64_t cut, uint32_
     return status != RLVC_OK;
 }
 
-/* An agent whose small ring is full before its first step, which takes evidence the most lightly. */
+/* An agent whose small ring is full before its first step, which takes evidence the most
+ * lightly. */
 static void prepare_full(void) {
     prepare_holding(HELD);
     player_play(&p, HELD);

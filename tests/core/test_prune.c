@@ -53,8 +53,8 @@ static void check_all(rlvc_agent *agent) {
     }
 }
 
-/* Interactions in a world whose rewards are said by so many bits, the highest, and by the action, and are noise
- * beside. Action 2 is only tried where bit 1 is 1, if at all. */
+/* Interactions in a world whose rewards are said by so many bits, the highest, and by the action,
+ * and are noise beside. Action 2 is only tried where bit 1 is 1, if at all. */
 static void live(rlvc_agent *agent, uint32_t bits, int third) {
     rlvc_rng rng;
     rlvc_progress progress;
@@ -74,7 +74,8 @@ static void live(rlvc_agent *agent, uint32_t bits, int third) {
     check_all(agent);
 }
 
-/* An agent that has learnt to tell all percepts apart, since when the world has changed: only bit 2 matters. */
+/* An agent that has learnt to tell all percepts apart, since when the world has changed: only bit 2
+ * matters. */
 static rlvc_agent *make(int third) {
     rlvc_domain domain;
     rlvc_config config;
@@ -158,7 +159,8 @@ static void test_in_the_maze(void **unused) {
     static content before, after;
     uint32_t all = 0;
     prepare_holding(200);
-    p.config.explore = RLVC_EXPLORE_UNIFORM; /* a poor walk: later data do not support every split */
+    p.config.explore = RLVC_EXPLORE_UNIFORM; /* a poor walk: later data do not support every
+                                                split */
     player_init(&p);
     for (uint32_t k = 0; k < 30; k++) {
         uint32_t undone = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Snapshots: what is saved at any moment resumes bit for bit, whatever happens to the store and the bytes
- * (test_powercut.c has what happens to the power). RLVC_WRITE_GOLDEN=1 in the environment makes the golden
- * snapshots anew. */
+/* Snapshots: what is saved at any moment resumes bit for bit, whatever happens to the store and the
+ * bytes (test_powercut.c has what happens to the power). RLVC_WRITE_GOLDEN=1 in the environment
+ * makes the golden snapshots anew. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -108,8 +108,7 @@ static void test_resume_anywhere(void **state) {
             steps += progress.done;
             if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 100u)
                 player_play(&p, 1);
-            if (n % 3 == 0 || k.solver == RLVC_SOLVER_Q_LEARNING ||
-                k.solver == RLVC_SOLVER_SARSA) {
+            if (n % 3 == 0 || k.solver == RLVC_SOLVER_Q_LEARNING || k.solver == RLVC_SOLVER_SARSA) {
                 phases[p.agent->learner.phase]++;
                 resume_and_compare(budget, &store);
             }
@@ -243,7 +242,8 @@ static void test_forgery(void **state) {
     assert_true(accepted > 0 && accepted < tried);
 }
 
-/* Sets `bytes` bytes of the snapshot in slot 1, makes it whole, tries to load it and puts them back. */
+/* Sets `bytes` bytes of the snapshot in slot 1, makes it whole, tries to load it and puts them
+ * back. */
 static rlvc_status load_forged(const rlvc_store *store, uint32_t at, uint64_t number,
                                uint32_t bytes) {
     unsigned char *snapshot = medium_slot(store, 1);
@@ -321,7 +321,8 @@ static void test_unsound_learner(void **state) {
     (void)state;
     uint32_t phases = 0;
     for (uint32_t slices = 1; slices < 80; slices++) {
-        rlvc_store store = two_snapshots(90, slices, 80); /* some of them end while SEEK is under way */
+        rlvc_store store = two_snapshots(90, slices, 80); /* some of them end while SEEK is under
+                                                             way */
         const uint32_t learner = AT_SLOTS + SLOT_BYTES * p.agent->replay.count + 4u +
                                  SPLIT_BYTES * (p.agent->tree.classes - 1u) +
                                  p.agent->tree.classes * (8u + 12u * 4u) +
@@ -382,18 +383,24 @@ static void test_resume_improving(void **state) {
     assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
 }
 
-/* Prioritized sweeping: a cursor and priorities that no solver comes to, with room for the predecessors and
- * without. */
+/* Prioritized sweeping: a cursor and priorities that no solver comes to, with room for the
+ * predecessors and without. */
 static void test_resume_prioritized(void **state) {
     (void)state;
-    rlvc_sample model[8] = {{0, 1}, {1, 3}, {0, 2}}; /* of one action: from 0 to both, from 1 to 0 */
+    rlvc_sample model[8] = {{0, 1}, {1, 3}, {0, 2}}; /* of one action: from 0 to both, from 1 to
+                                                        0 */
     rlvc_sample copy[8] = {{0, 1}, {1, 3}, {0, 2}};
     uint32_t first[3] = {0, 2, 3}, tried[2] = {4, 2}, word[10], again[10];
     float q[2] = {0.0f, 0.0f}, reward[2] = {1.0f, 2.0f}, value[2] = {0.0f, 0.0f};
     uint8_t policy[2] = {0, 0};
     uint16_t priority[2];
-    rlvc_values values = {.q = q, .reward = reward, .tried = tried, .first = first, .value = value,
-                          .policy = policy, .actions = 1};
+    rlvc_values values = {.q = q,
+                          .reward = reward,
+                          .tried = tried,
+                          .first = first,
+                          .value = value,
+                          .policy = policy,
+                          .actions = 1};
     uint32_t changes = 0;
     for (uint32_t slots = 0; slots < 9u; slots += 8u) {
         const rlvc_solving solving = {model, 2, 9, 0.9f, 0.01f, slots, priority};

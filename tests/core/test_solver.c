@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The class-level model against plain counting, and the batch solvers, and the value of what was little
- * tried, against value iteration in double over dense tables. */
+/* The class-level model against plain counting, and the batch solvers, and the value of what was
+ * little tried, against value iteration in double over dense tables. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -122,7 +122,8 @@ static void test_model(void **state) {
     }
 }
 
-/* Value iteration, policy iteration, prioritized sweeping with room for the predecessors and without. */
+/* Value iteration, policy iteration, prioritized sweeping with room for the predecessors and
+ * without. */
 static const uint8_t kinds[] = {RLVC_SOLVER_VALUE_ITERATION, RLVC_SOLVER_POLICY_ITERATION,
                                 RLVC_SOLVER_PRIORITIZED, RLVC_SOLVER_PRIORITIZED};
 #define KINDS 4u
@@ -284,7 +285,8 @@ static double plain_nearness(uint32_t pair, const double u[CLASSES]) {
     return tried[pair] < (double)explorer.least ? 1.0 : 0.95 * sum / tried[pair];
 }
 
-/* What is found is at most the true nearness, and no more below it than ignored changes add up to. */
+/* What is found is at most the true nearness, and no more below it than ignored changes add up
+ * to. */
 static void check_nearness(uint32_t seed) {
     const double ignored = 0.001 / (1.0 - 0.95);
     double u[CLASSES] = {0.0};
@@ -362,8 +364,9 @@ static uint64_t maze_block[3u * MOVES];
 static rlvc_sample maze_model[2u * MOVES + CELLS];
 static uint16_t maze_priority[CELLS];
 
-/* A maze of 64 x 64 cells without walls, each a class, whose numbers say nothing of where it is. Every move
- * earns -1, the one into cell 0 besides 100, and is the last. Returns the backups of all classes' V from 0. */
+/* A maze of 64 x 64 cells without walls, each a class, whose numbers say nothing of where it is.
+ * Every move earns -1, the one into cell 0 besides 100, and is the last. Returns the backups of all
+ * classes' V from 0. */
 static uint32_t backups_of(uint8_t kind, float *v) {
     rlvc_arena arena = {(unsigned char *)maze_block, 0};
     rlvc_config config;
@@ -390,8 +393,8 @@ static uint32_t backups_of(uint8_t kind, float *v) {
         }
     }
     maze.first[MOVES] = MOVES;
-    const rlvc_solving solving = {maze_model, CELLS, 1000, 0.95f, 0.01f, 2u * MOVES + CELLS,
-                                  maze_priority};
+    const rlvc_solving solving = {maze_model,         CELLS,        1000, 0.95f, 0.01f,
+                                  2u * MOVES + CELLS, maze_priority};
     rlvc_solver solver;
     rlvc_solver_begin(&solver, kind);
     while (!solver.done)

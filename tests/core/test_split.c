@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which split wins: the written rules for ties, what is too little to split by, and the domain's own
- * oracle. (tests/oracle compares whole searches with a second implementation.) */
+/* Which split wins: the written rules for ties, what is too little to split by, and the domain's
+ * own oracle. (tests/oracle compares whole searches with a second implementation.) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -106,8 +106,8 @@ static void test_min_samples(void **state) {
     }
 }
 
-/* Targets within twice the tolerance are equal under the residual criterion, counted from the lowest of
- * a cluster; under the returns criterion none are that differ. */
+/* Targets within twice the tolerance are equal under the residual criterion, counted from the
+ * lowest of a cluster; under the returns criterion none are that differ. */
 static void test_near_targets(void **state) {
     (void)state;
     for (int i = 0; i < 4; i++) {
@@ -148,7 +148,8 @@ static void test_nothing_tells(void **state) {
 
 /* ------------------------------------------------------------------ the value gate */
 
-/* Bit 0 is worth 1.5 whatever is done; the better of two actions is the one that bit `useful` says, for 1 more. */
+/* Bit 0 is worth 1.5 whatever is done; the better of two actions is the one that bit `useful` says,
+ * for 1 more. */
 static void add_decoy(uint32_t useful) {
     for (unsigned char percept = 0; percept < 64u; percept++)
         for (uint8_t action = 0; action < 2u; action++)
@@ -156,7 +157,8 @@ static void add_decoy(uint32_t useful) {
                 (float)(percept & 1u) * 1.5f + (float)((percept >> useful & 1u) == action));
 }
 
-/* What explains the targets best is set aside, and the best of the others is of use, in whatever block it is. */
+/* What explains the targets best is set aside, and the best of the others is of use, in whatever
+ * block it is. */
 static void test_gate(void **state) {
     (void)state;
     for (uint32_t at_once = 1; at_once < 7u; at_once++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Numbers as text: floats come back from nine digits bit by bit, fewer digits are the nearest ones. */
+/* Numbers as text: floats come back from nine digits bit by bit, fewer digits are the nearest
+ * ones. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

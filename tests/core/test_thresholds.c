@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The domain of thresholds: candidates against sorting, the batch detector against exhibits(), what is no
- * number, names, and an agent that learns with it. */
+/* The domain of thresholds: candidates against sorting, the batch detector against exhibits(), what
+ * is no number, names, and an agent that learns with it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

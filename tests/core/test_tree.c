@@ -37,8 +37,8 @@ static void grow(uint32_t class_id, uint32_t bit) {
     rlvc_tree_grow(&tree, &about, feature);
 }
 
-/* The class by the history of the splits, without nodes: split j takes the percepts with its feature
- * out of its class into class j + 1. */
+/* The class by the history of the splits, without nodes: split j takes the percepts with its
+ * feature out of its class into class j + 1. */
 static uint32_t class_by_history(uint32_t percept) {
     uint32_t class_id = 0;
     for (uint32_t j = 0; j + 1u < tree.classes; j++)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables by class and action: the greedy action and its ties, untried pairs, inheritance, checking. */
+/* Tables by class and action: the greedy action and its ties, untried pairs, inheritance,
+ * checking. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

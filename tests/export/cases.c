@@ -78,8 +78,8 @@ static void learn_maze(rlvc_agent *agent) {
     }
 }
 
-/* What to do at a percept, by a random decision tree of the given depth over the percept's bits: which
- * bit a node tests, and which action a leaf takes, comes from the path. */
+/* What to do at a percept, by a random decision tree of the given depth over the percept's bits:
+ * which bit a node tests, and which action a leaf takes, comes from the path. */
 static uint32_t wanted(const unsigned char *percept, uint32_t bits, uint32_t depth) {
     uint32_t path = 1;
     for (uint32_t level = 0; level < depth; level++) {

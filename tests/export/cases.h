@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Agents whose policies are exported: learnt anew, alike, by the program that exports and by the one that
- * checks. */
+/* Agents whose policies are exported: learnt anew, alike, by the program that exports and by the
+ * one that checks. */
 #ifndef RLVC_TESTS_EXPORT_CASES_H
 #define RLVC_TESTS_EXPORT_CASES_H
 
@@ -48,8 +48,8 @@ float get_number(const unsigned char *record, uint32_t form, uint32_t k);
 /* Draws a percept of COMPONENTS numbers in [-1, 1). */
 void draw_numbers(uint64_t *state, float *x);
 
-/* Learns case i; the memory is static, so that the last case learnt is the one there is. Ends the program
- * with a message if anything fails. */
+/* Learns case i; the memory is static, so that the last case learnt is the one there is. Ends the
+ * program with a message if anything fails. */
 learnt learn_case(uint32_t i);
 
 #endif

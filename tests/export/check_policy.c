@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Proves the exported policies equal to the agents that they were exported from: on every percept up to
- * 20 bits; of more bits on RLVC_EXPORT_BITS random ones, of which the first fall on a path to each leaf of the
- * tree (many, the other bits being random); else on RLVC_EXPORT_REALS. Of these, of descriptors, half have a
- * vector whose distance from a feature is its radius up to a few roundings; of thresholds, half lie on a
- * cutpoint up to a few roundings. And an agent that learnt the same exports the same, to the letter. */
+/* Proves the exported policies equal to the agents that they were exported from: on every percept
+ * up to 20 bits; of more bits on RLVC_EXPORT_BITS random ones, of which the first fall on a path to
+ * each leaf of the tree (many, the other bits being random); else on RLVC_EXPORT_REALS. Of these,
+ * of descriptors, half have a vector whose distance from a feature is its radius up to a few
+ * roundings; of thresholds, half lie on a cutpoint up to a few roundings. And an agent that learnt
+ * the same exports the same, to the letter. */
 #include "bytes.h"
 #include "cases.h"
 #include "floats.h"
@@ -70,8 +71,8 @@ static int check_all(const learnt *made, uint32_t i) {
     return 1;
 }
 
-/* Sets a random percept's bits so that it falls into a class: split by split back through the history of
- * the tree (agent.h). */
+/* Sets a random percept's bits so that it falls into a class: split by split back through the
+ * history of the tree (agent.h). */
 static void lead_to(const learnt *made, uint32_t class_id, uint32_t classes,
                     unsigned char *percept) {
     for (uint32_t j = classes - 1u; j-- > 0;) {
@@ -117,8 +118,8 @@ static int check_some(const learnt *made, uint32_t i) {
     return 1;
 }
 
-/* Puts the first vector of a percept just so far from that of a feature as its radius reaches: each number
- * is off by radius / 6, and there are 36. */
+/* Puts the first vector of a percept just so far from that of a feature as its radius reaches: each
+ * number is off by radius / 6, and there are 36. */
 static void put_at_edge(const learnt *made, uint32_t split_number, vectors *percept) {
     const uint32_t form = made->descriptors->form;
     rlvc_split split;

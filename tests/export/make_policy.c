@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* make_policy CASE FILE: writes the exported policy of a case; or, where CASE is maze_agent, what the agent
- * of the case maze does at every percept, four actions to a byte. */
+/* make_policy CASE FILE: writes the exported policy of a case; or, where CASE is maze_agent, what
+ * the agent of the case maze does at every percept, four actions to a byte. */
 #include "cases.h"
 
 #include <stdio.h>

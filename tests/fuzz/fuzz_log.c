@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads anything as a log, in pieces. The first byte chooses the size of the pieces, whether the reader
- * knows the percepts, and whether the rest is taken as it is or as contents, for which records with a right
- * CRC are made. What is read must be what an agent accepts. */
+/* Reads anything as a log, in pieces. The first byte chooses the size of the pieces, whether the
+ * reader knows the percepts, and whether the rest is taken as it is or as contents, for which
+ * records with a right CRC are made. What is read must be what an agent accepts. */
 #include "base/bytes.h"
 #include "base/crc.h"
 #include "rlvc/log.h"

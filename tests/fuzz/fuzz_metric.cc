@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer: any text as a metric. What is accepted is written and read again as the same, and makes
-// the extractor of its own config.
+// libFuzzer: any text as a metric. What is accepted is written and read again as the same, and
+// makes the extractor of its own config.
 #include "rlvc/vision.h"
 
 #include <cstdlib>

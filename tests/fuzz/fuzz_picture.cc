@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer: any config and any picture through the C ABI. The picture's memory is exactly as large as
-// its fields say, so that one byte read beyond it is seen. What is accepted must be a percept.
+// libFuzzer: any config and any picture through the C ABI. The picture's memory is exactly as large
+// as its fields say, so that one byte read beyond it is seen. What is accepted must be a percept.
 #include "rlvc/vision.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Loads anything. The first bytes choose what agent the store once held and how far it had come in a
- * learning step; the others change bytes of its snapshot, or take the snapshot's place. Half of the time
- * the CRC is made right again. What is loaded must be sound and go on learning. */
+/* Loads anything. The first bytes choose what agent the store once held and how far it had come in
+ * a learning step; the others change bytes of its snapshot, or take the snapshot's place. Half of
+ * the time the CRC is made right again. What is loaded must be sound and go on learning. */
 #include "base/bytes.h"
 #include "base/crc.h"
 #include "rlvc/bits.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Extracts the percept of one picture from the vision module, as the package's test does from Python.
+/* Extracts the percept of one picture from the vision module, as the package's test does from
+ * Python.
  *
  *     seer DESCRIPTOR FORM WIDTH HEIGHT FORMAT METRIC|- < pixels > percept, then its points */
 #include <rlvc/vision.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The exported policy of the maze on the least target, without the library: does at each of the 2^18 percepts
- * what the agent does that it was exported from. Prints what it does in the cells of the maze. */
+/* The exported policy of the maze on the least target, without the library: does at each of the
+ * 2^18 percepts what the agent does that it was exported from. Prints what it does in the cells of
+ * the maze. */
 #include "gridworld.h"
 #include "maze_agent.h"
 #include <stdio.h>
@@ -15,8 +16,8 @@ unsigned maze_policy(const unsigned char *percept);
 #define PAINT 0x5ac3965bu
 #define PAINTED 64u /* words */
 
-/* The bytes of stack that a call takes, or 0 where that is not known: what is below the stack in use is
- * painted, and the lowest place that lost its paint tells. */
+/* The bytes of stack that a call takes, or 0 where that is not known: what is below the stack in
+ * use is painted, and the lowest place that lost its paint tells. */
 static unsigned stack_of(unsigned (*volatile policy)(const unsigned char *),
                          const unsigned char *percept) {
 #if defined(__arm__)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The smallest learner: eight cells in a row, within 16 KiB of memory. Prints its tree as JSON, by both
- * criteria and with every solver. */
+/* The smallest learner: eight cells in a row, within 16 KiB of memory. Prints its tree as JSON, by
+ * both criteria and with every solver. */
 #include <rlvc/rlvc.h>
 #include <stdio.h>
 

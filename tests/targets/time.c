@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How many instructions the public functions take, by what their time depends on. Prints the table of
- * core/TIME.md; everything is exact and reproducible under an emulator that counts instructions.
+/* How many instructions the public functions take, by what their time depends on. Prints the table
+ * of core/TIME.md; everything is exact and reproducible under an emulator that counts instructions.
  *
  * What the measuring itself takes is found first, and left out. */
 #include "port.h"

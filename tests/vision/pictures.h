@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures for the tests: cards and discs of random colours and places on a shaded ground, with noise. */
+/* Pictures for the tests: cards and discs of random colours and places on a shaded ground, with
+ * noise. */
 #ifndef RLVC_TEST_PICTURES_H
 #define RLVC_TEST_PICTURES_H
 
@@ -9,8 +10,8 @@
 extern "C" {
 #endif
 
-/* The pixels lie from the first row to the last without a gap; free() them. Values are 10 to 110, so
- * that they can be doubled. Equal arguments give equal pictures. */
+/* The pixels lie from the first row to the last without a gap; free() them. Values are 10 to 110,
+ * so that they can be doubled. Equal arguments give equal pictures. */
 typedef struct test_picture {
     rlvc_picture picture;
     uint8_t *pixels;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures to percepts through the C ABI: the record, the points, what leaves the vectors alone, and
- * what is refused. */
+/* Pictures to percepts through the C ABI: the record, the points, what leaves the vectors alone,
+ * and what is refused. */
 #include <math.h>
 #include <stdlib.h>
 

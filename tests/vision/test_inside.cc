@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The inside of the vision module against plain OpenCV calls in double: the response and its maxima,
-// the jet, both compilations of the row passes, and extractors that work at the same time.
+// The inside of the vision module against plain OpenCV calls in double: the response and its
+// maxima, the jet, both compilations of the row passes, and extractors that work at the same time.
 #include "eye.h"
 #include "harris.h"
 #include "jet.h"

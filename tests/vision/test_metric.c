@@ -80,7 +80,8 @@ static void test_covariance_becomes_one(void **state) {
     rlvc_metric_destroy(metric);
 }
 
-/* Of pairs of a feature and a picture of another object, about the wanted share show the feature. */
+/* Of pairs of a feature and a picture of another object, about the wanted share show the
+ * feature. */
 static void check_share(uint32_t descriptor, uint32_t kind, float share) {
     static float vectors[OBJECTS][200 * RLVC_DIMENSIONS_MAX];
     uint32_t counts[OBJECTS];

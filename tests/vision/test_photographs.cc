@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Values known of the COIL-100 photographs (Nene, Nayar, Murase 1996), whose folder RLVC_COIL100 names.
+// Values known of the COIL-100 photographs (Nene, Nayar, Murase 1996), whose folder RLVC_COIL100
+// names.
 #include "rlvc/vision.h"
 
 #include <opencv2/imgcodecs.hpp>
@@ -74,9 +75,9 @@ rlvc_extractor *extractor_of(const rlvc_vision_config &config, const rlvc_metric
     return extractor;
 }
 
-// The mean vector over view 0 of 99 objects was once measured with other code. A folder may hold only
-// some of the objects, and the means of two thirds differ from those of all by their own sampling
-// error, up to 6 % where this was written: 10 % is allowed.
+// The mean vector over view 0 of 99 objects was once measured with other code. A folder may hold
+// only some of the objects, and the means of two thirds differ from those of all by their own
+// sampling error, up to 6 % where this was written: 10 % is allowed.
 void test_mean_vector(void **) {
     const double known[8] = {117.9, 144.7, 98.6, 107.6, 79.3, 81.2, 101.0, 73.8};
     const rlvc_vision_config config = published();

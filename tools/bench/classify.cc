@@ -56,9 +56,9 @@ void run_classify(benchmark::State &state) {
     state.SetBytesProcessed(state.iterations() * percepts * static_cast<int64_t>(sizeof(uint32_t)));
     state.counters["a_percept"] = benchmark::Counter(
         percepts, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-    state.counters["a_test"] = benchmark::Counter(percepts * depth,
-                                                  benchmark::Counter::kIsIterationInvariantRate |
-                                                      benchmark::Counter::kInvert);
+    state.counters["a_test"] =
+        benchmark::Counter(percepts * depth, benchmark::Counter::kIsIterationInvariantRate |
+                                                 benchmark::Counter::kInvert);
 }
 
 BENCHMARK(run_classify)->Name("classify")->Arg(3)->Arg(6)->Arg(12);

@@ -3,8 +3,8 @@
 //
 //     refine/<interactions>    a_refinement: the time of the step by the splits that it made
 //
-// As many made-up objects as Sutton's maze has cells, each of 30 vectors of 16 bytes; every percept shows
-// them with noise, without a few. What an action earns depends on the object.
+// As many made-up objects as Sutton's maze has cells, each of 30 vectors of 16 bytes; every percept
+// shows them with noise, without a few. What an action earns depends on the object.
 #include "core.h"
 #include "data.h"
 

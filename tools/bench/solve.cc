@@ -43,7 +43,8 @@ struct Process {
     // All values from 0; returns the sweeps.
     uint32_t solve() {
         std::fill(values.value, values.value + config.classes, 0.0F);
-        const rlvc_solving solving = {transitions.data(), config.classes, 10000, 0.9F, 0.01F, 0, nullptr};
+        const rlvc_solving solving = {
+            transitions.data(), config.classes, 10000, 0.9F, 0.01F, 0, nullptr};
         rlvc_solver solver;
         rlvc_solver_begin(&solver, RLVC_SOLVER_VALUE_ITERATION);
         while (!solver.done)

@@ -73,8 +73,8 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     replay.percept = const_cast<unsigned char *>(percepts.data());
     replay.percept_bytes = percept_bytes;
     rlvc_aliasing aliasing = {};
-    const rlvc_searching searching = {&space,  &replay, &aliasing,
-                                      &domain, config.min_samples, config.score, config.gate};
+    const rlvc_searching searching = {
+        &space, &replay, &aliasing, &domain, config.min_samples, config.score, config.gate};
     const uint32_t first[2] = {0, config.capacity};
     rlvc_search search;
     rlvc_search_begin(&search, &searching, first);
@@ -85,7 +85,8 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     Winner winner = {};
     if (feature) {
         const rlvc_table &table = search.alone.table;
-        winner = {{about.score, table.a + table.b, table.a, table.a + table.c}, rlvc_bits_feature(feature)};
+        winner = {{about.score, table.a + table.b, table.a, table.a + table.c},
+                  rlvc_bits_feature(feature)};
     }
     return winner;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How long it takes to see, on one thread: each part of the extraction beside OpenCV's own
-// goodFeaturesToTrack (Harris, grey) and SIFT at as many points. The pictures are drawn here, and one
-// is a photograph if RLVC_COIL100 names a folder of them. At the end the table of the same times as
-// shares of goodFeaturesToTrack's. Each time is the least of several repetitions, in CPU time.
+// goodFeaturesToTrack (Harris, grey) and SIFT at as many points. The pictures are drawn here, and
+// one is a photograph if RLVC_COIL100 names a folder of them. At the end the table of the same
+// times as shares of goodFeaturesToTrack's. Each time is the least of several repetitions, in CPU
+// time.
 #include "eye.h"
 #include "picture.h"
 

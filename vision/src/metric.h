@@ -3,8 +3,8 @@
 //
 // The text is a JSON object: "rlvc_metric" (the version, 1), the config that it was fitted with,
 // "kind", "tau", "step", and unless the kind is plain, "mean" (D numbers) and "matrix" (D numbers
-// for each number of a percept's vector, W row by row). Whatever is read is checked: every key is there, every number finite and in its
-// range.
+// for each number of a percept's vector, W row by row). Whatever is read is checked: every key is
+// there, every number finite and in its range.
 #ifndef RLVC_VISION_METRIC_H
 #define RLVC_VISION_METRIC_H
 

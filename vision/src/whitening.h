@@ -20,10 +20,10 @@ std::vector<float> mean_of(const std::vector<float> &vectors, size_t n);
 std::vector<float> whitening_of(const std::vector<float> &vectors, const std::vector<float> &centre,
                                 size_t n);
 
-// W [kept][n]: Fisher's linear discriminants. S, of changes about 0, and T, of vectors about `centre`,
-// are the means of the products as above; W S' W^T is the identity and W T W^T diagonal, its largest
-// numbers first. S' is S with a part of its mean diagonal number added to all of them: directions in
-// which changes were hardly seen are not known to be better.
+// W [kept][n]: Fisher's linear discriminants. S, of changes about 0, and T, of vectors about
+// `centre`, are the means of the products as above; W S' W^T is the identity and W T W^T diagonal,
+// its largest numbers first. S' is S with a part of its mean diagonal number added to all of them:
+// directions in which changes were hardly seen are not known to be better.
 std::vector<float> discriminants_of(const std::vector<float> &changes,
                                     const std::vector<float> &vectors,
                                     const std::vector<float> &centre, size_t n, size_t kept);

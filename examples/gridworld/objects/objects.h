@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The objects that lie in the cells of the Tiled Gridworld (section 6.2), each seen from some angles: the
-// photographs of a folder, or rendered ones, so that the experiment runs on a bare machine. Needs OpenCV.
+// The objects that lie in the cells of the Tiled Gridworld (section 6.2), each seen from some
+// angles: the photographs of a folder, or rendered ones, so that the experiment runs on a bare
+// machine. Needs OpenCV.
 #ifndef GRIDWORLD_OBJECTS_H
 #define GRIDWORLD_OBJECTS_H
 
@@ -16,10 +17,10 @@ struct Object {
     std::map<int, cv::Mat> views; // by angle; BGR or grey, 8 bits
 };
 
-// The objects of a folder, in the order of their numbers (or names), of which a picture from every angle
-// is there: objN__ANGLE.* as of COIL-100, or any other pictures, which are then objects seen from angle 0.
-// Without a folder ("") as many rendered ones as are wanted. All pictures are of one size.
-// Throws std::runtime_error: fewer than `wanted`, or what is no picture that can be used.
+// The objects of a folder, in the order of their numbers (or names), of which a picture from every
+// angle is there: objN__ANGLE.* as of COIL-100, or any other pictures, which are then objects seen
+// from angle 0. Without a folder ("") as many rendered ones as are wanted. All pictures are of one
+// size. Throws std::runtime_error: fewer than `wanted`, or what is no picture that can be used.
 std::vector<Object> find_objects(const std::string &folder, const std::vector<int> &angles,
                                  std::size_t wanted);
 

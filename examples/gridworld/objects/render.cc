@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rendered objects, so that the experiment runs on a bare machine. An object is a body of revolution about
-// an upright axis: its outline is one of a few shapes, its surface is painted with a texture of patches,
-// stripes and rings in colours of its own, and a light from the upper left shades it. Turning it by an
-// angle brings other parts of the surface into view, as a turntable does.
+// Rendered objects, so that the experiment runs on a bare machine. An object is a body of
+// revolution about an upright axis: its outline is one of a few shapes, its surface is painted with
+// a texture of patches, stripes and rings in colours of its own, and a light from the upper left
+// shades it. Turning it by an angle brings other parts of the surface into view, as a turntable
+// does.
 #include "objects.h"
 
 #include <opencv2/imgproc.hpp>
@@ -59,7 +60,8 @@ cv::Mat paint_texture(cv::RNG &random) {
     return texture;
 }
 
-// Half the width of the outline at height t in [0, 1] from the top, as a share of the picture's side.
+// Half the width of the outline at height t in [0, 1] from the top, as a share of the picture's
+// side.
 double outline(int shape, double t) {
     switch (shape) {
     case 0:

@@ -81,7 +81,7 @@ typedef struct rlvc_vision_error {
 
 /* config.form: how a number of a vector stands in the percept. Values are pinned. */
 #define RLVC_FORM_FLOAT 0u /* binary32 */
-#define RLVC_FORM_INT8 1u /* round(number / step) in [-127, 127], saturating: rlvc_extractor_step */
+#define RLVC_FORM_INT8 1u  /* round(number / rlvc_extractor_step) in [-127, 127], saturating */
 
 #define RLVC_POINTS_MAX 1000u
 
