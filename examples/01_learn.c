@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Introduces the whole loop: a block of memory, a domain, an agent that acts, observes and learns,
- * and what it has learnt. The README shows what follows. */
+/* Introduces the whole loop: a block of memory, a domain, an agent that acts, observes and learns, and the
+ * tree that it has learnt. README.md shows what follows. It is C99, and C++ too. */
 #include <rlvc/rlvc.h>
 #include <stdio.h>
 
 static int print(void *file, const char *text, size_t bytes) {
-    return fwrite(text, 1, bytes, file) != bytes;
+    return fwrite(text, 1, bytes, (FILE *)file) != bytes;
 }
 
-/* Cells 0 to 7 in a row, each seen as its number in 3 bits. Cell 5 pays 1 and ends an episode. */
-int main(void) {
+int main(void) { /* cells 0 to 7 in a row, seen as 3 bits; reaching cell 5 pays 1 */
     static uint64_t memory[RLVC_AGENT_BYTES(2, 2000, 64, 1, 2, 3) / 8];
     rlvc_domain domain;
     rlvc_config config;
@@ -25,8 +24,7 @@ int main(void) {
         rlvc_begin(agent, &cell);
         while (cell != 5 && rlvc_act(agent, &choice) == RLVC_OK) {
             cell = (uint8_t)(choice.action ? cell + (cell < 7) : cell - (cell > 0));
-            uint8_t end = cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON;
-            rlvc_observe(agent, choice, cell == 5, &cell, end);
+            rlvc_observe(agent, choice, cell == 5, &cell, cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON);
         }
         if (episode % 20 == 0)
             rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress);
