@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Introduces the whole loop: a block of memory, a domain, an agent that acts, observes and learns, and the
- * tree that it has learnt. README.md shows what follows. It is C99, and C++ too. */
+/* Introduces the whole loop: a block of memory, a domain, an agent that acts, observes and learns,
+ * and the tree that it has learnt. README.md shows what follows. It is C99, and C++ too. */
 #include <rlvc/rlvc.h>
 #include <stdio.h>
 
@@ -24,7 +24,8 @@ int main(void) { /* cells 0 to 7 in a row, seen as 3 bits; reaching cell 5 pays 
         rlvc_begin(agent, &cell);
         while (cell != 5 && rlvc_act(agent, &choice) == RLVC_OK) {
             cell = (uint8_t)(choice.action ? cell + (cell < 7) : cell - (cell > 0));
-            rlvc_observe(agent, choice, cell == 5, &cell, cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON);
+            rlvc_observe(agent, choice, cell == 5, &cell,
+                         cell == 5 ? RLVC_TERMINATED : RLVC_GOES_ON);
         }
         if (episode % 20 == 0)
             rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress);
