@@ -2,7 +2,7 @@
 /* What the Python package needs of C besides the library: loops over arrays, and the layout of the
  * structs as this compiler made it. Only the public interface is used.
  *
- * The functions are exported with the library's own; shim/rlvc/_lib.py declares them. Pointers are
+ * The functions are exported with the library's own; shim/rlvc/_native/bindings.py declares them. Pointers are
  * trusted: the package checks its arrays before it calls. */
 #ifndef RLVC_SHIM_H
 #define RLVC_SHIM_H

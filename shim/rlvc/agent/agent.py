@@ -211,7 +211,7 @@ class Agent(Looking):
         packed = self._domain.pack_many(percepts)
         count = len(packed)
         choices = np.empty(count, CHOICE)
-        native = _native.Log(packed.ctypes.data, None, choices.ctypes.data)
+        native = _native.ShimLog(packed.ctypes.data, None, choices.ctypes.data)
         native.count, native.bytes = count, self._domain.percept_bytes
         self._loop("rlvc_shim_act", native)
         return choices
@@ -255,7 +255,7 @@ class Agent(Looking):
         native.resume = bool(resume)
         self._loop("rlvc_shim_observe", native)
 
-    def _loop(self, name: str, native: _native.Log) -> None:
+    def _loop(self, name: str, native: _native.ShimLog) -> None:
         """Call a loop over interactions; its errors say at which one it stopped."""
         done = ctypes.c_size_t()
         status = self._long(name, _byref(native), _byref(done))

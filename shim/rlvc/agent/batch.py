@@ -63,7 +63,7 @@ def native_log(
     rewards: npt.NDArray[Any],
     next_percepts: npt.NDArray[Any],
     ends: npt.NDArray[Any],
-) -> _native.Log:
+) -> _native.ShimLog:
     """Make the C struct of interactions, which keeps its arrays alive.
 
     Parameters
@@ -92,7 +92,7 @@ def native_log(
     checked(ends, "ends", "uint8", (count,))
     arrays = (before, after, choices, rewards, ends)
     pointers = (array.ctypes.data for array in arrays)
-    native = _native.Log(*pointers, count, domain.percept_bytes, actions)
+    native = _native.ShimLog(*pointers, count, domain.percept_bytes, actions)
     native._keeps = arrays
     return native
 

@@ -48,13 +48,13 @@ class Callbacks:
         native.percept_bytes = domain.percept_bytes
         native.feature_bytes = domain.feature_bytes
         native.features_max = domain.features_max
-        native.exhibits = _native.EXHIBITS(self.guarded(self.exhibits))
-        native.name = _native.NAME(self.guarded(self.name))
-        native.candidates = _native.CANDIDATES(self.guarded(self.candidates))
+        native.exhibits = _native.DOMAIN_EXHIBITS(self.guarded(self.exhibits))
+        native.name = _native.DOMAIN_NAME(self.guarded(self.name))
+        native.candidates = _native.DOMAIN_CANDIDATES(self.guarded(self.candidates))
         if domain.detect is not None:
-            native.detect = _native.DETECT(self.guarded(self.detect))
+            native.detect = _native.DOMAIN_DETECT(self.guarded(self.detect))
         if domain.oracle is not None:
-            native.oracle = _native.ORACLE(self.guarded(self.oracle))
+            native.oracle = _native.DOMAIN_ORACLE(self.guarded(self.oracle))
         return native
 
     def guarded(self, callback: Callable[..., None]) -> Callable[..., int]:

@@ -70,7 +70,7 @@ class Thresholds(BuiltinDomain):
 
     @staticmethod
     def _look_at(numbers: npt.NDArray[Any]) -> None:
-        if not (np.abs(numbers) <= _native.NUMBER_MAX).all():  # neither is a NaN
+        if not (np.abs(numbers) <= _native.THRESHOLDS_NUMBER_MAX).all():  # neither is a NaN
             raise PerceptError("a percept has a number in it that is a NaN, or beyond 1e15")
 
     def native(self, guard: Guard) -> _native.Domain:

@@ -50,7 +50,7 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         if not 0 <= distractors <= _native.BITS_MAX or self.maze.bits(distractors) > _native.BITS_MAX:
             raise ConfigError(f"distractors: {distractors}: at most {_native.BITS_MAX} bits in all")
         self.action_space = spaces.Discrete(4)
-        self._world = _native.World()
+        self._world = _native.Gridworld()
         self._over = True
         self._seed(0)
 

@@ -44,8 +44,8 @@ class Maze:
         else:
             encoded = text.encode(errors="replace")
             self._cells = ctypes.create_string_buffer(min(len(encoded), _CELLS_MAX) + 1)
-            self.native = _native.Maze()
-            fault = _native.MazeFault()
+            self.native = _native.GridworldMaze()
+            fault = _native.GridworldError()
             status = _native.call.rlvc_shim_maze_parse(
                 ctypes.byref(self.native),
                 encoded,
@@ -81,7 +81,7 @@ class Maze:
         """
         cells = self.width * self.height
         percepts = np.zeros((cells, (self.bits(distractors) + 7) // 8), np.uint8)
-        random = _native.MazeRandom(seed)
+        random = _native.GridworldRandom(seed)
         for cell in range(cells):
             _native.call.rlvc_shim_maze_encode(
                 ctypes.byref(self.native),

@@ -77,7 +77,7 @@ def _box_part(space: Any, path: tuple[Any, ...]) -> _Part:
         rows = np.asarray(batch, np.float64).reshape(len(batch), -1)
         if np.isnan(rows).any():
             raise PerceptError("an observation has a NaN in it")
-        return rows.clip(-_native.NUMBER_MAX, _native.NUMBER_MAX)
+        return rows.clip(-_native.THRESHOLDS_NUMBER_MAX, _native.THRESHOLDS_NUMBER_MAX)
 
     return _Part(path, names, columns, lambda value: np.shape(value) == space.shape)
 
@@ -184,7 +184,7 @@ class Encoder:
         self._parts = _parts(space, ())
         self.names = [name for part in self._parts for name in part.names]
         size, real = len(self.names), _has_reals(space)
-        if size > (_native.COMPONENTS_MAX if real else _native.BITS_MAX):
+        if size > (_native.THRESHOLDS_COMPONENTS_MAX if real else _native.BITS_MAX):
             raise SpaceError(
                 f"{space} would need {size} {'components' if real else 'bits'}, and a percept has at "
                 f"most {_native.BITS_MAX}: "

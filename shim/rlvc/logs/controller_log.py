@@ -35,9 +35,9 @@ def is_records(path: str | Path) -> bool:
         return False
 
 
-def _read(content: bytes, records: _native.Records, path: str | Path) -> None:
-    buffer = ctypes.create_string_buffer(_native.RECORDS_ROOM)
-    current = ctypes.create_string_buffer(_native.RECORDS_PERCEPT)
+def _read(content: bytes, records: _native.ShimRecords, path: str | Path) -> None:
+    buffer = ctypes.create_string_buffer(_native.SHIM_RECORDS_ROOM)
+    current = ctypes.create_string_buffer(_native.SHIM_RECORDS_PERCEPT)
     status = _native.long_call.rlvc_shim_records_read(
         content, len(content), buffer, current, ctypes.byref(records)
     )
@@ -75,7 +75,7 @@ def from_records(path: str | Path) -> Log:
         content = Path(path).read_bytes()
     except OSError as error:
         raise LogError(f"{path}: cannot be read: {error}") from error
-    records = _native.Records()
+    records = _native.ShimRecords()
     _read(content, records, path)
     count, size = records.interactions, records.percept_bytes
     if count == 0:
