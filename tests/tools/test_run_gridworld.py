@@ -49,7 +49,7 @@ def test_help(tmp_path, arguments):
 
 def test_help_names_every_option(tmp_path):
     text = run("binary", "--help", cwd=tmp_path).stdout
-    for option in ("learner criterion score interactions steps gamma epsilon alpha alpha-known successors gate seed runs maze slip distractors "
+    for option in ("solver criterion score interactions steps gamma epsilon alpha alpha-known successors seed runs maze slip distractors "
                    "classes capacity json dot export-c help version").split():
         assert re.search(rf"--{option}\b", text), option
 
@@ -78,13 +78,8 @@ def check_refused(done, *parts):
     (["binary", "more"], ["more"]),
     (["binary", "--gamma"], ["--gamma: takes one value"]),
     (["binary", "--runs", "2", "--runs", "3"], ["--runs: takes one value, once"]),
-    (["binary", "--learner", "dreamer"], ["--learner", "'dreamer'", "policy-iteration", "told-sarsa"]),
-    (["binary", "--learner", ""], ["--learner", "''"]),
-    (["binary", "--learner", "sarsa,"], ["--learner", "''"]),
-    (["binary", "--learner", "sarsa,told-sarsa,sarsa"], ["--learner", "'sarsa'", "twice"]),
-    (["binary", "--learner", "told-sarsa", "--dot", "tree.dot"], ["--dot", "--learner"]),
-    (["binary", "--learner", "all", "--export-c", "maze.h"], ["--export-c", "--learner"]),
-    (["binary", "--learner", "told-sarsa", "--distractors", "1018"], ["--distractors", "1017"]),
+    (["binary", "--solver", "dreamer"], ["--solver", "'dreamer'", "policy-iteration", "sarsa"]),
+    (["binary", "--solver", ""], ["--solver", "''"]),
     (["binary", "--gamma", "1"], ["--gamma", "'1'", "[0, 1)"]),
     (["binary", "--gamma", "0.99999999999"], ["--gamma"]),  # is 1 in binary32
     (["binary", "--gamma", "-0.1"], ["--gamma"]),
@@ -99,13 +94,11 @@ def check_refused(done, *parts):
     (["binary", "--alpha-known", "2"], ["--alpha-known", "(0, 1]"]),
     (["binary", "--successors", "maybe"], ["--successors", "yes", "no"]),
     (["binary", "--successors", "yes", "--distractors", "60"], ["successors"]),
-    (["binary", "--gate", "--criterion", "returns"], ["gate", "residual"]),
-    (["binary", "--gate=2"], ["--gate: takes no value"]),
     (["binary", "--slip", "2"], ["--slip"]),
     (["binary", "--slip", "nan"], ["--slip"]),
     (["binary", "--slip", ""], ["--slip"]),
     (["binary", "--criterion", "best"], ["--criterion", "best", "returns", "residual"]),
-    (["binary", "--score", "ranking"], ["--score", "'ranking'", "gain", "gini", "chi2", "ranks"]),
+    (["binary", "--score", "ranking"], ["--score", "'ranking'", "gain", "ranks"]),
     (["binary", "--score", "ranks", "--capacity", "2097152"], ["ranks", "2^21"]),
     (["binary", "--interactions", "0"], ["--interactions"]),
     (["binary", "--interactions", "-5"], ["--interactions", "-5"]),
@@ -205,20 +198,6 @@ def test_interrupt(tmp_path, number):
                         r"learning steps of the run with seed 1; nothing was written\n", errors)
     assert files(tmp_path) == ["report.json"]
     assert (tmp_path / "report.json").read_text() == "the report of before"
-
-
-def test_interrupt_of_a_peer(tmp_path):
-    arguments = [PROGRAM, "binary", "--learner", "told-r-max,raw-q-learning",
-                 "--interactions", "2147483647", "--json", "report.json"]
-    with subprocess.Popen(arguments, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, env=ENVIRONMENT) as program:
-        next(line for line in program.stdout if "learner" in line)
-        program.send_signal(signal.SIGINT)
-        _, errors = program.communicate(timeout=300)
-    assert program.returncode == 128 + signal.SIGINT
-    assert re.fullmatch(r"run_gridworld: interrupted after \d+ interactions of the run with seed 1 of "
-                        r"told-r-max; nothing was written\n", errors)
-    assert files(tmp_path) == []
 
 
 # ------------------------------------------------------------------------- reporting
@@ -470,103 +449,16 @@ def test_table_of_runs(tmp_path):
     assert re.search(r"optimal +all cells in \d of 3 runs", done.stdout)
 
 
-# ------------------------------------------------------------------------- comparing
+# ------------------------------------------------------------------------- solvers
 
-OWN = ["value-iteration", "policy-iteration", "prioritized-sweeping", "q-learning", "sarsa"]
-PEERS = ["fitted-q", "told-r-max", "told-value-iteration", "told-q-learning", "told-sarsa", "raw-q-learning"]
-
-
-def runs_of(learner, made):
-    return next(one["runs"] for one in made["learners"] if one["learner"] == learner)
-
-
-def comparison(*arguments, cwd):
-    made = report(*arguments, cwd=cwd)
-    assert made["version"] == 1 and made["kind"] == "run_gridworld binary --learner"
-    for run_report in itertools.chain.from_iterable(one["runs"] for one in made["learners"]):
-        first, stays = (run_report["interactions_to" + which]
-                        for which in ("_first_optimal", "_optimal"))
-        assert (stays is not None) == (run_report["optimal_cells"] == made["cells"])
-        assert stays is None or first <= stays <= run_report["interactions"]
-        assert run_report["optimal_cells"] <= run_report["near_optimal_cells"] <= made["cells"]
-    return made
-
-
-@pytest.mark.parametrize("learner", OWN)
-def test_each_solver_alone(tmp_path, learner):
-    made = report("--learner", learner, "--interactions", "2000", "--steps", "10", cwd=tmp_path)
-    assert made["kind"] == "run_gridworld binary" and made["options"]["learner"] == learner
+@pytest.mark.parametrize("solver", ["value-iteration", "policy-iteration", "q-learning", "sarsa"])
+def test_each_solver(tmp_path, solver):
+    made = report("--solver", solver, "--interactions", "2000", "--steps", "10", cwd=tmp_path)
+    assert made["options"]["solver"] == solver
     check_run(made)
 
 
-def test_default_learner_is_value_iteration(tmp_path):
+def test_default_solver_is_value_iteration(tmp_path):
     default = report("--interactions", "1500", cwd=tmp_path)
-    named = report("--interactions", "1500", "--learner", "value-iteration", cwd=tmp_path)
+    named = report("--interactions", "1500", "--solver", "value-iteration", cwd=tmp_path)
     assert without_time(default) == without_time(named)
-
-
-def test_batch_solvers_and_peers_that_are_told_learn_the_maze(tmp_path):
-    learners = ["value-iteration", "policy-iteration", "told-r-max", "told-value-iteration",
-                "told-q-learning"]
-    made = comparison("--learner", ",".join(learners), "--runs", "2", "--seed", "3", cwd=tmp_path)
-    assert [one["learner"] for one in made["learners"]] == learners
-    for one in made["learners"]:
-        assert [r["seed"] for r in one["runs"]] == [3, 4]
-        assert all(r["optimal_cells"] == r["states"] == 46 for r in one["runs"])
-    slowest = max(r["interactions_to_optimal"] for r in runs_of("told-r-max", made))
-    assert slowest < min(r["interactions_to_optimal"] for r in runs_of("told-q-learning", made))
-
-
-@pytest.mark.parametrize("learner", OWN + PEERS)
-def test_a_learner_learns_alike_alone_and_among_others(tmp_path, learner):
-    arguments = ["--interactions", "600", "--steps", "6", "--runs", "2"]
-    among = comparison("--learner", "all", *arguments, cwd=tmp_path)
-    assert [one["learner"] for one in among["learners"]] == OWN + PEERS
-    alone = comparison("--learner", f"{learner},told-sarsa" if learner in OWN else learner,
-                       *arguments, cwd=tmp_path)
-    assert [without_time(r) for r in runs_of(learner, alone)] == \
-           [without_time(r) for r in runs_of(learner, among)]
-
-
-def test_a_peer_without_the_cell_is_lost_in_random_bits(tmp_path):
-    """With none of them its percepts are the cells, and it learns as the one that is told."""
-    lost = runs_of("raw-q-learning", comparison("--learner", "raw-q-learning", "--interactions", "20000",
-                                                cwd=tmp_path))[0]
-    assert lost["interactions_to_first_optimal"] is None and lost["states"] > 5000
-    arguments = ["--learner", "told-q-learning,raw-q-learning", "--interactions", "20000", "--distractors", "0"]
-    made = comparison(*arguments, cwd=tmp_path)
-    assert without_time(runs_of("raw-q-learning", made)[0]) == \
-           without_time(runs_of("told-q-learning", made)[0])
-
-
-def test_fitted_q_iteration_grows_a_tree(tmp_path):
-    (tmp_path / "maze.txt").write_text("....\n.##.\n..#*\n")
-    arguments = ["--learner", "fitted-q", "--maze", "maze.txt", "--distractors", "3",
-                 "--interactions", "2000", "--steps", "10"]
-    grown = comparison(*arguments, cwd=tmp_path)["learners"][0]["runs"][0]
-    assert grown["states"] == grown["optimal_cells"] == 8
-    done = run("binary", *arguments, "--classes", "3", cwd=tmp_path)
-    check_refused(done, "fitted-q", "tree is full", "3 classes", "--classes", "seed 1")
-
-
-def test_peers_where_moves_go_astray(tmp_path):
-    (tmp_path / "maze.txt").write_text("....\n.##.\n..#*\n")
-    made = comparison("--maze", "maze.txt", "--slip", "0.2", "--distractors", "3", "--gamma", "0.8",
-                      "--learner", "told-r-max,told-value-iteration", "--interactions", "20000", cwd=tmp_path)
-    assert all(one["runs"][0]["near_optimal_cells"] == made["cells"] == 8 for one in made["learners"])
-
-
-def test_peers_take_the_interactions_of_all_steps_under_the_returns_criterion(tmp_path):
-    made = comparison("--learner", "value-iteration,told-sarsa", "--criterion", "returns",
-                      "--interactions", "100", "--steps", "3", cwd=tmp_path)
-    assert all(one["runs"][0]["interactions"] == 300 for one in made["learners"])
-
-
-def test_table_of_learners(tmp_path):
-    done = run("binary", "--learner", "value-iteration,told-r-max,raw-q-learning", "--interactions", "1500",
-               "--runs", "3", cwd=tmp_path)
-    rows = re.findall(r"^ +([a-z-]+) +1,500 +([\d,]+|never) +(\d) of 3 ", done.stdout, re.MULTILINE)
-    assert [(row[0], row[2]) for row in rows] == \
-           [("value-iteration", "3"), ("told-r-max", "3"), ("raw-q-learning", "0")]
-    assert rows[2][1] == "never"
-    assert "\r" not in done.stdout and "\033" not in done.stdout

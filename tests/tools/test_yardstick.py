@@ -283,13 +283,14 @@ def test_a_file_that_cannot_be_written(tmp_path):
 
 
 def test_a_reader_that_has_seen_enough(tmp_path):
-    process = subprocess.Popen([*COMMAND, "--tasks", "lake", "--learners", "rlvc", "--seeds", "1"],
-                               cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE,
+    process = subprocess.Popen([*COMMAND, "--tasks", "lake", "--learners", "rlvc", "--seeds", "1",
+                                "--json", "out.json"], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True)
     process.stdout.close()
     assert process.stderr.read() == ""
     process.stderr.close()
     assert process.wait() == 1
+    assert len(json.loads((tmp_path / "out.json").read_text())["runs"]) == 1
 
 
 def test_a_peer_that_is_missing_is_said_to_be(tmp_path):

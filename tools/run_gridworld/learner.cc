@@ -40,7 +40,6 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint3
     config.alpha = options.alpha;
     config.alpha_known = options.alpha_known;
     config.successors = options.successors > 0;
-    config.gate = options.gate;
     return config;
 }
 

@@ -8,11 +8,9 @@
 //     compaction   the policy made small, and the smallest that an optimal one could be
 //     picture, summary, screen                      what is shown
 //     report, output_file                           what is written
-//     comparison   several learners: the library by each of its solvers, and peers (a folder)
 //     tiled                                         the other subcommand, in a folder of its own
 //
 // Exit status: 0; 2 after a failure, with one line on stderr; 128 + n after signal n.
-#include "comparison.h"
 #include "failure.h"
 #include "interrupt.h"
 #include "learner.h"
@@ -71,28 +69,12 @@ std::vector<RunResult> run_many(const Options &options, const gridworld_maze &ma
     return runs;
 }
 
-void run_comparison(const Options &options, const Maze &maze) {
-    const std::vector<Options> each = settle_each(options, maze.get());
-    OutputFile json("--json", options.json);
-    const Optimum optimum(maze.get(), double{options.gamma}, double{options.slip});
-    Screen screen;
-    screen.print(describe_comparison(options, maze.get()));
-    const std::vector<LearnerRuns> learners = compare(each, maze.get(), optimum, screen);
-    if (!options.json.empty()) {
-        json.write(make_comparison_report(options, maze.get(), maze.rows(), learners));
-    }
-}
-
 void run(int argc, char **argv) {
     Options options;
     if (!read_options(argc, argv, options)) {
         return;
     }
     const Maze maze(options.maze);
-    if (is_comparison(options)) {
-        run_comparison(options, maze);
-        return;
-    }
     settle(options, maze.get());
     const std::string task = describe_task(options, maze.get());
     OutputFile json("--json", options.json);

@@ -35,8 +35,16 @@ constexpr uint32_t small_cells = 46;
 constexpr uint32_t large_interactions_a_cell = 320;
 constexpr uint32_t classes_min = 64, classes_max = 65535;
 
-// In the order of RLVC_SCORE_*.
-const std::vector<std::string> score_names{"gain", "gini", "chi2", "ranks"};
+struct Named {
+    const char *name; // on the command line
+    uint8_t number;   // in the library
+};
+
+const std::vector<Named> solvers{{"value-iteration", RLVC_SOLVER_VALUE_ITERATION},
+                                 {"policy-iteration", RLVC_SOLVER_POLICY_ITERATION},
+                                 {"q-learning", RLVC_SOLVER_Q_LEARNING},
+                                 {"sarsa", RLVC_SOLVER_SARSA}};
+const std::vector<Named> scores{{"gain", RLVC_SCORE_GAIN}, {"ranks", RLVC_SCORE_RANKS}};
 
 constexpr char defaults_table[] = R"(Defaults by criterion    interactions  steps  epsilon  alpha    known    successors  capacity
   returns                10000 each       20  0.8      0.05     0.0001   no          a step's
@@ -44,18 +52,7 @@ constexpr char defaults_table[] = R"(Defaults by criterion    interactions  step
   ... by increments      20000           200  0.3      0.01     1        yes         1200
   residual, any other    320 a cell       60  1        0.01     0.00001  no          all
 A maze is small if it has at most 46 free cells, as Sutton's has, and no slip. Of the library's solvers
-q-learning and sarsa work by increments; in any other maze, too, by epsilon 0.3.
-
-Learners that --learner takes, and what they are without --interactions and --epsilon
-  value-iteration, policy-iteration, prioritized-sweeping, q-learning, sarsa
-                                                 the library's solvers, as above
-  fitted-q                  90 a cell  0.9       the library's tree, grown anew in 40 steps; remembers all
-  told-r-max                20 a cell            R-max on the cells, whose numbers it is told
-  told-value-iteration     100 a cell  1         value iteration on a model of the cells
-  told-q-learning          500 a cell  0.6       tables over the cells
-  told-sarsa               500 a cell  0.3
-  raw-q-learning        20,000 a cell  0.6       a table over whole percepts: not to get there
-  all                                            all of these)";
+q-learning and sarsa work by increments; in any other maze, too, by epsilon 0.3.)";
 
 Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
     if (options.criterion == RLVC_CRITERION_RETURNS) {
@@ -72,33 +69,39 @@ Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
     return large;
 }
 
-void add_learner(CLI::App &binary, Options &options) {
+// An option that takes one of several names, the first of which is the default.
+void add_named(CLI::App &binary, const std::string &option, const std::vector<Named> &all,
+               uint8_t &into, const char *text) {
+    std::vector<std::string> names;
+    for (const Named &one : all) {
+        names.emplace_back(one.name);
+    }
+    into = all.front().number;
     binary
         .add_option_function<std::string>(
-            "--learner",
-            [&options](const std::string &text) { options.learners = parse_learners(text); },
-            "who learns: one of the library's solvers (value-iteration), or several names or 'all' "
-            "for a table that compares")
-        ->type_name("NAME,...");
+            option,
+            [&all, &into](const std::string &name) {
+                into = std::find_if(all.begin(), all.end(), [&name](const Named &one) {
+                           return name == one.name;
+                       })->number;
+            },
+            text)
+        ->type_name("NAME")
+        ->check(one_of(names));
 }
 
-void add_score(CLI::App &binary, Options &options) {
-    binary
-        .add_option_function<std::string>(
-            "--score",
-            [&options](const std::string &name) {
-                const auto place = std::find(score_names.begin(), score_names.end(), name);
-                options.score = static_cast<uint8_t>(place - score_names.begin());
-            },
-            "what a bit tells of the targets, at its best cutpoint: gain (default), gini or chi2; or, "
-            "without one, ranks")
-        ->type_name("NAME")
-        ->check(one_of(score_names));
+const char *name_of(const std::vector<Named> &all, uint8_t number) {
+    const auto is = [number](const Named &one) { return one.number == number; };
+    return std::find_if(all.begin(), all.end(), is)->name;
 }
 
 void add_learning(CLI::App &binary, Options &options) {
     add_criterion(binary, options.criterion);
-    add_score(binary, options);
+    add_named(binary, "--solver", solvers, options.solver,
+              "value-iteration (default), policy-iteration, q-learning or sarsa");
+    add_named(binary, "--score", scores, options.score,
+              "how a feature is judged: gain (default), information gain at its best cutpoint; or ranks, the "
+              "rank-sum test");
     binary
         .add_option("--interactions", options.interactions,
                     "returns: fresh ones for each step; residual: those of the whole run")
@@ -133,11 +136,6 @@ void add_learning(CLI::App &binary, Options &options) {
             "criterion)")
         ->type_name("ANSWER")
         ->check(one_of({"yes", "no"}));
-    binary
-        .add_flag("--gate", options.gate,
-                  "split a class by its targets only if that raises the estimated return (residual "
-                  "criterion)")
-        ->disable_flag_override();
     binary
         .add_option("--classes", options.classes,
                     "classes the tree may grow to (4 for 3 cells, at least 64)")
@@ -191,10 +189,6 @@ void check_combination(const Options &options) {
         if (tree.file.empty()) {
             continue;
         }
-        if (is_comparison(options)) {
-            throw Failure(tree.option + ": writes one tree of the library's: name one of its "
-                                        "solvers with --learner");
-        }
         if (options.runs > 0) {
             throw Failure(tree.option +
                           ": writes one tree, and --runs makes several: leave one of them out");
@@ -203,11 +197,16 @@ void check_combination(const Options &options) {
     check_files_differ({{"--json", options.json}, trees[0], trees[1]});
 }
 
-} // namespace
-
-bool is_comparison(const Options &options) {
-    return options.learners.size() > 1 || options.learners.front().kind != LearnerKind::own;
+// Throws Failure if so many bits do not fit.
+void check_percept(const Options &options, const gridworld_maze &maze) {
+    const uint32_t place = gridworld_bits(&maze, 0);
+    if (gridworld_bits(&maze, options.distractors) > GRIDWORLD_BITS_MAX) {
+        throw Failure("--distractors: at most " + std::to_string(GRIDWORLD_BITS_MAX - place) +
+                      " fit into a percept of this maze");
+    }
 }
+
+} // namespace
 
 bool read_options(int argc, char **argv, Options &options) {
     const std::string version = std::string("run_gridworld ") + rlvc_version();
@@ -219,7 +218,6 @@ bool read_options(int argc, char **argv, Options &options) {
         "binary", "The Binary Gridworld (section 6.1): a cell is seen as a string of bits");
     app.footer("Another subcommand, tiled, has a help of its own: run_gridworld tiled --help");
     binary.set_version_flag("--version", version, "Print the version and exit");
-    add_learner(binary, options);
     add_learning(binary, options);
     add_world(binary, options);
     add_files(binary, options);
@@ -233,20 +231,8 @@ bool read_options(int argc, char **argv, Options &options) {
                                      ": not a subcommand; there are 'binary' and 'tiled'"
                                : "a subcommand is wanted: 'binary' or 'tiled' (see --help)");
     }
-    if (options.learners.empty()) {
-        options.learners = {learner_types().front()};
-    }
-    options.solver = options.learners.front().solver;
     check_combination(options);
     return true;
-}
-
-void check_percept(const Options &options, const gridworld_maze &maze) {
-    const uint32_t place = gridworld_bits(&maze, 0);
-    if (gridworld_bits(&maze, options.distractors) > GRIDWORLD_BITS_MAX) {
-        throw Failure("--distractors: at most " + std::to_string(GRIDWORLD_BITS_MAX - place) +
-                      " fit into a percept of this maze");
-    }
 }
 
 void settle(Options &options, const gridworld_maze &maze) {
@@ -291,6 +277,10 @@ const char *criterion_name(const Options &options) {
     return options.criterion == RLVC_CRITERION_RETURNS ? "returns" : "residual";
 }
 
+const char *solver_name(const Options &options) {
+    return name_of(solvers, options.solver);
+}
+
 const char *score_name(const Options &options) {
-    return score_names[options.score].c_str();
+    return name_of(scores, options.score);
 }

@@ -3,8 +3,6 @@
 #ifndef RUN_GRIDWORLD_OPTIONS_H
 #define RUN_GRIDWORLD_OPTIONS_H
 
-#include "learners.h"
-
 #include "gridworld.h"
 
 #include <cstdint>
@@ -12,10 +10,9 @@
 #include <vector>
 
 struct Options {
-    std::vector<LearnerType> learners; // at least one
-    uint8_t solver = 0;                // RLVC_SOLVER_*: that of the learner at work
-    uint8_t criterion = 0;             // RLVC_CRITERION_*
-    uint8_t score = 0;                 // RLVC_SCORE_*
+    uint8_t solver = 0;    // RLVC_SOLVER_*
+    uint8_t criterion = 0; // RLVC_CRITERION_*
+    uint8_t score = 0;     // RLVC_SCORE_*
     uint32_t interactions = 0; // returns: of each step; residual: of the whole run. 0: see settle()
     uint32_t steps = 0;        // learning steps; 0: see settle()
     float gamma = 0.9f;
@@ -23,7 +20,6 @@ struct Options {
     float alpha = 0.0f;       // 0: see settle()
     float alpha_known = 0.0f; // likewise
     int successors = -1;      // negative: likewise
-    bool gate = false;
     uint32_t seed = 1;        // of the first run; each further run takes the next number
     uint32_t runs = 0;        // 0: one run, shown in full
     std::string maze;         // a file; empty: Sutton's maze
@@ -38,16 +34,11 @@ struct Options {
 // answer is then false: there is nothing to run.
 bool read_options(int argc, char **argv, Options &options);
 
-// Whether several learners, or a peer, are asked for: then a table compares them.
-bool is_comparison(const Options &options);
-
-// Throws Failure if so many bits do not fit.
-void check_percept(const Options &options, const gridworld_maze &maze);
-
 // Fills in what was left open, after the criterion and the size of the maze; checks what only the
 // maze can tell. Throws Failure.
 void settle(Options &options, const gridworld_maze &maze);
 
+const char *solver_name(const Options &options);
 const char *criterion_name(const Options &options);
 const char *score_name(const Options &options);
 

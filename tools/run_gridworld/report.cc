@@ -35,7 +35,7 @@ Json bit_range(uint32_t first, uint32_t count) {
 }
 
 Json describe_options(const Options &options) {
-    return {{"learner", options.learners.front().name},
+    return {{"solver", solver_name(options)},
             {"criterion", criterion_name(options)},
             {"score", score_name(options)},
             {"interactions", options.interactions},
@@ -45,7 +45,6 @@ Json describe_options(const Options &options) {
             {"alpha", shortest(options.alpha)},
             {"alpha_known", shortest(options.alpha_known)},
             {"successors", options.successors > 0 ? "yes" : "no"},
-            {"gate", options.gate ? "yes" : "no"},
             {"seed", options.seed},
             {"maze", options.maze.empty() ? Json(nullptr) : Json(options.maze)},
             {"slip", shortest(options.slip)},
@@ -120,17 +119,6 @@ Json describe_percept(const Options &options, const gridworld_maze &maze) {
             {"y_bits", bit_range(x + options.distractors, y)}};
 }
 
-Json describe_outcome(const Outcome &run) {
-    return {{"seed", run.seed},
-            {"interactions", run.interactions},
-            {"interactions_to_optimal", or_null(run.interactions_to_optimal)},
-            {"interactions_to_first_optimal", or_null(run.interactions_to_first_optimal)},
-            {"optimal_cells", run.optimal_cells},
-            {"near_optimal_cells", run.near_optimal_cells},
-            {"states", run.states},
-            {"seconds", run.seconds}};
-}
-
 // A file's name need not be UTF-8.
 std::string print(const Json &json) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -154,27 +142,6 @@ std::string make_report(const Options &options, const gridworld_maze &maze,
             add_run(one, maze, rows, run);
             json["runs"].push_back(std::move(one));
         }
-    }
-    return print(json);
-}
-
-std::string make_comparison_report(const Options &options, const gridworld_maze &maze,
-                                   const std::vector<std::string> &rows,
-                                   const std::vector<LearnerRuns> &learners) {
-    Json json{{"version", report_version},
-              {"kind", "run_gridworld binary --learner"},
-              {"program", std::string("run_gridworld ") + rlvc_version()},
-              {"gamma", shortest(options.gamma)},
-              {"slip", shortest(options.slip)},
-              {"maze", rows},
-              {"cells", maze.free_cells},
-              {"percept", describe_percept(options, maze)}};
-    for (const LearnerRuns &learner : learners) {
-        Json runs = Json::array();
-        for (const Outcome &run : learner.runs) {
-            runs.push_back(describe_outcome(run));
-        }
-        json["learners"].push_back({{"learner", learner.learner.name}, {"runs", std::move(runs)}});
     }
     return print(json);
 }

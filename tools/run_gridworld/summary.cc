@@ -114,14 +114,14 @@ std::string describe_task(const Options &options, const gridworld_maze &maze) {
     std::string text = describe_world(options, maze);
     text += format(
         "Learning  %s, %s criterion, %s steps of %s interactions%s\n",
-        options.learners.front().name, criterion_name(options), grouped(options.steps).c_str(),
+        solver_name(options), criterion_name(options), grouped(options.steps).c_str(),
         grouped(returns ? options.interactions : options.interactions / options.steps).c_str(),
         returns ? ", fresh ones in each" : "");
     const bool by_gain = options.score == RLVC_SCORE_GAIN;
-    text += format("          gamma %g, epsilon %g, alpha %g, of known bits %g%s%s%s%s, seed %u\n",
+    text += format("          gamma %g, epsilon %g, alpha %g, of known bits %g%s%s%s, seed %u\n",
                    double{options.gamma}, double{options.epsilon}, double{options.alpha},
                    double{options.alpha_known}, options.successors > 0 ? ", successors" : "",
-                   options.gate ? ", gate" : "", by_gain ? "" : ", score ",
+                   by_gain ? "" : ", score ",
                    by_gain ? "" : score_name(options), options.seed);
     text += format("Memory    %s bytes: %s interactions, %s classes\n",
                    grouped(learner_bytes(options, maze)).c_str(), grouped(options.capacity).c_str(),
@@ -252,67 +252,4 @@ std::string describe_runs(const Options &options, const gridworld_maze &maze,
            row("last split",
                format("at step k = %u at the latest", static_cast<unsigned>(split.most))) +
            row("memory", grouped(runs.front().memory_bytes) + " bytes each");
-}
-
-// ------------------------------------------------------------------------------ several learners
-
-namespace {
-
-constexpr const char *comparison_pattern = "%22s  %12s  %10s  %9s  %8s  %8s  %8s  %8s  %6s\n";
-
-// Of those runs that became optimal.
-std::string mean_to_optimal(const std::vector<uint64_t> &values) {
-    uint64_t sum = 0, count = 0;
-    for (const uint64_t value : values) {
-        sum += value == never ? 0 : value;
-        count += value != never;
-    }
-    return count == 0 ? "never" : grouped((sum + count / 2) / count);
-}
-
-} // namespace
-
-std::string describe_comparison(const Options &options, const gridworld_maze &maze) {
-    return describe_world(options, maze) +
-           format("Learning  gamma %g, seed %u\n", double{options.gamma}, options.seed);
-}
-
-std::string comparison_header() {
-    return "\n" + format(comparison_pattern, "learner", "interactions", "first time", "optimal",
-                         "mean", "median", "worst", "states", "time");
-}
-
-std::string comparison_row(const LearnerRuns &learner) {
-    std::vector<uint64_t> values, first, states, ms;
-    for (const Outcome &run : learner.runs) {
-        first.push_back(run.interactions_to_first_optimal.value_or(never));
-        values.push_back(run.interactions_to_optimal.value_or(never));
-        states.push_back(run.states);
-        ms.push_back(static_cast<uint64_t>(run.seconds * 1000.0));
-    }
-    const Spread optimal = spread(values);
-    const auto reached =
-        values.size() - static_cast<std::size_t>(std::count(values.begin(), values.end(), never));
-    return format(comparison_pattern, learner.learner.name,
-                  grouped(learner.runs.front().interactions).c_str(),
-                  count_or_never(spread(first).median).c_str(),
-                  format("%zu of %zu", reached, values.size()).c_str(),
-                  mean_to_optimal(values).c_str(), count_or_never(optimal.median).c_str(),
-                  count_or_never(optimal.most).c_str(), grouped(spread(states).median).c_str(),
-                  seconds(static_cast<double>(spread(ms).median) / 1000.0).c_str());
-}
-
-std::string comparison_line(const LearnerType &learner, uint32_t run, uint32_t runs,
-                            uint64_t interactions, uint32_t optimal_cells) {
-    return format("%s, run %u of %u: %s interactions, %u cells optimal", learner.name, run + 1,
-                  runs, grouped(interactions).c_str(), optimal_cells);
-}
-
-std::string comparison_footer() {
-    return R"(
-first time: interactions until all cells were optimal, median. optimal: runs where they stayed so;
-mean, median, worst: until they did, the mean of just those runs. states: classes, or rows of
-the table, median. told-...: is told the number of the cell. raw-...: takes a whole percept as
-one state.
-)";
 }

@@ -4,7 +4,6 @@
 #define RUN_GRIDWORLD_SUMMARY_H
 
 #include "learner.h"
-#include "outcome.h"
 
 #include <string>
 #include <vector>
@@ -25,13 +24,5 @@ std::string runs_header();
 std::string run_row(const RunResult &run);
 std::string describe_runs(const Options &options, const gridworld_maze &maze,
                           const std::vector<RunResult> &runs);
-
-// Several learners: what is about to be learnt; and the table.
-std::string describe_comparison(const Options &options, const gridworld_maze &maze);
-std::string comparison_header();
-std::string comparison_row(const LearnerRuns &learner);
-std::string comparison_line(const LearnerType &learner, uint32_t run, uint32_t runs,
-                            uint64_t interactions, uint32_t optimal_cells);
-std::string comparison_footer();
 
 #endif

@@ -64,9 +64,11 @@ def main():
     jobs = _jobs(args, learners)
     records, ended = runs.run_all(jobs, args.jobs)
     done = [record for record in records if "error" not in record]
-    print(report.render(done, args.tasks, learners), flush=True)
-    if args.json:
-        _write_json(args.json, {"ended": ended, "missing": absent, "runs": records})
+    try:
+        print(report.render(done, args.tasks, learners), flush=True)
+    finally:  # also if the reader of the table is gone
+        if args.json:
+            _write_json(args.json, {"ended": ended, "missing": absent, "runs": records})
     _complain(records, absent, ended, len(jobs))
     if ended == "interrupted":
         return 130
