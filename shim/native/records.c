@@ -57,7 +57,7 @@ rlvc_status rlvc_shim_records_read(const unsigned char *bytes, size_t count, uns
     while (status == RLVC_OK) {
         uint64_t skipped = reader.skipped;
         uint32_t lost = reader.lost;
-        size_t at = tape.at - (reader.fill - reader.from);
+        size_t at = tape.at - (reader.held);
         status = rlvc_log_next(&reader, &record);
         int edge = record.kind == RLVC_LOG_HEADER || record.kind == RLVC_LOG_END;
         records->fault_at = at;

@@ -10,6 +10,7 @@
 #include "rlvc/fewest.h"
 #include "base/rng.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define ROWS 20u
@@ -225,12 +226,27 @@ static void test_nothing_to_tell_apart(void **unused) {
     assert_int_equal(tree.action[0], 1);
 }
 
+/* Without features, rows that differ in their actions cannot be told apart; there is no row to
+ * read. */
+static void test_no_features(void **unused) {
+    (void)unused;
+    const uint64_t allowed[] = {1, 2, 1};
+    unsigned char *nothing = malloc(1);
+    for (uint32_t i = 0; i < 2; i++) {
+        rlvc_fewest_task task = {i ? (const uint64_t *)nothing : NULL, allowed, 3, 0, 16, 0, 1000};
+        rlvc_fewest_tree tree;
+        assert_int_equal(rlvc_fewest(&task, memory, sizeof memory, &tree), RLVC_E_RANGE);
+    }
+    free(nothing);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_the_recursion),
         cmocka_unit_test(test_parity),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_nothing_to_tell_apart),
+        cmocka_unit_test(test_no_features),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

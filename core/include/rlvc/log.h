@@ -66,6 +66,20 @@ typedef struct rlvc_log_record {
     uint8_t kind;
 } rlvc_log_record;
 
+/* How many lengths a record can have: header, beginning, interaction without and with a percept. */
+#define RLVC_LOG_LENGTHS 4u
+
+/* A CRC from some origin up to a position of the log. */
+typedef struct rlvc_log_crc {
+    uint64_t at;
+    uint32_t crc;
+} rlvc_log_crc;
+
+/* What moves a CRC over as many bytes as the CRC of a record covers; zeros until it is needed. */
+typedef struct rlvc_log_shift {
+    uint32_t multiple[16];
+} rlvc_log_shift;
+
 typedef struct rlvc_log_reader {
     /* Reads up to `room` bytes, waits if there are none yet, sets *got, 0 at the end of the log.
      * Returns 0, or anything else to fail. */
@@ -75,8 +89,13 @@ typedef struct rlvc_log_reader {
     uint32_t room;
     uint32_t percept_bytes; /* 0 until it is known */
     uint32_t actions;
-    uint32_t from; /* bytes [from, fill) of the buffer are not used yet */
-    uint32_t fill;
+    uint32_t from; /* the buffer, a ring, holds from here on */
+    uint32_t held; /* so many bytes that are not used yet */
+    uint64_t at;   /* how many were used: the position of the first of these */
+    rlvc_log_crc start;
+    rlvc_log_crc reach[RLVC_LOG_LENGTHS];
+    uint64_t furthest; /* of these */
+    rlvc_log_shift shift[RLVC_LOG_LENGTHS];
     uint64_t skipped; /* bytes that are part of no whole record */
     uint32_t damaged; /* stretches of such bytes; */
     uint32_t lost; /* records that are missing, as far as sequence numbers tell, or that follow on a
@@ -98,7 +117,8 @@ RLVC_API rlvc_status rlvc_log_read(
 
 /* The next record. What can be made of the records in this order, rlvc_begin and rlvc_observe
  * accept. An interaction whose s is lost becomes the beginning of an episode at its s'. Amortised
- * O(1) a byte but for a byte of damage, O(record) at worst.
+ * O(1) a byte of the log, whatever it holds: a byte of damage costs at most twenty times as much as
+ * one of a record.
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_STORE: read failed, call again; RLVC_E_VERSION,
  *         RLVC_E_MISMATCH, RLVC_E_MEMORY: by the header just read (of another version, other
  * percepts or actions, with too little room), which is skipped by calling again. */

@@ -11,4 +11,15 @@
 /* The CRC of what `crc` is the CRC of (0: nothing) and `bytes` bytes more. O(bytes). */
 uint32_t rlvc_crc(uint32_t crc, const void *data, size_t bytes);
 
+/* The CRC of the concatenation AB is that of A, shifted by the bytes of B, xor that of B. So the
+ * CRC of the end of a string follows from those of the string and of its beginning. As polynomials
+ * with the coefficient of x^0 in the highest bit, to shift is to multiply by x^(8 bytes), modulo
+ * that of the CRC. */
+
+/* Makes what rlvc_crc_shift needs: multiples of the factor. O(log bytes). */
+void rlvc_crc_shift_by(uint32_t bytes, uint32_t multiple[16]);
+
+/* The CRC, shifted. O(1). */
+uint32_t rlvc_crc_shift(uint32_t crc, const uint32_t multiple[16]);
+
 #endif

@@ -145,6 +145,8 @@ static int make_key(fewest *s, uint32_t begin, uint32_t end) {
     int parts = 0;
     memset(any, 0, s->words * sizeof *any);
     memset(all, 0xFF, s->words * sizeof *all);
+    if (s->words == 0) /* no features: there is no row to look into */
+        return 0;
     for (uint32_t at = begin; at < end; at++) {
         const uint64_t *row = row_at(s, at);
         for (uint32_t w = 0; w < s->words; w++) {
@@ -417,7 +419,7 @@ static uint8_t grow(fewest *s) {
         const glance seen = look(s, now.begin, now.end);
         if (seen.leaves == 1) {
             s->action[now.leaf] = lowest(common(s, now.begin, now.end));
-        } else {
+        } else if (!s->torn) {
             const uint32_t feature = root_of(s, now.begin, now.end, &seen, &exact);
             const uint32_t middle = partition(s, now.begin, now.end, feature);
             const rlvc_fewest_split split = {now.leaf, feature};

@@ -4,7 +4,17 @@
  * A record is a mark, a byte of kind and flags, a sequence number, a content whose length follows
  * from these, and the CRC of all before it (SPEC.md). The reader takes what begins with the mark
  * for a record until that proves wrong; then it goes on looking one byte later, in what it has
- * already read, so that no whole record is ever lost to a false beginning. */
+ * already read, so that no whole record is ever lost to a false beginning.
+ *
+ * A hostile log has a false beginning at every other byte, so the CRC of a record must not be taken
+ * anew for each. Let C(p) be the CRC of the bytes from some origin to position p. Then the CRC of
+ * the n bytes from p on is C(p + n) xor C(p) x^(8 n), modulo the CRC's polynomial. The reader keeps
+ * C(p) of the first unused byte (`start`) and, for each of the four lengths that a record can have,
+ * C(p + n) as far as it was taken (`reach`). They only ever move forward, so each byte is passed
+ * five times at most.
+ *
+ * The buffer is a ring, for a byte that is skipped to cost nothing to move. A record that was found
+ * across the ring's end is straightened, at most once for as many bytes as the buffer holds. */
 #include "rlvc/log.h"
 
 #include "../base/bytes.h"
@@ -122,47 +132,109 @@ rlvc_status rlvc_log_read(rlvc_log_reader *reader, uint32_t percept_bytes, uint3
     return RLVC_OK;
 }
 
+/* Where the byte `ahead` bytes after the first unused one stands in the ring. */
+static uint32_t place_of(const rlvc_log_reader *reader, uint32_t ahead) {
+    uint32_t to_end = reader->room - reader->from;
+    return ahead < to_end ? reader->from + ahead : ahead - to_end;
+}
+
+/* Where the byte stands that was used `ago` bytes before it. */
+static uint32_t place_before(const rlvc_log_reader *reader, uint32_t ago) {
+    return ago <= reader->from ? reader->from - ago : reader->room - (ago - reader->from);
+}
+
+/* Continues a CRC up to a position of the log; what it passes is in the ring. */
+static void take_crc(const rlvc_log_reader *reader, rlvc_log_crc *crc, uint64_t to) {
+    uint32_t count = (uint32_t)(to - crc->at), to_end;
+    uint32_t place = crc->at >= reader->at ? place_of(reader, (uint32_t)(crc->at - reader->at))
+                                           : place_before(reader, (uint32_t)(reader->at - crc->at));
+    to_end = reader->room - place;
+    crc->crc = rlvc_crc(crc->crc, reader->buffer + place, count < to_end ? count : to_end);
+    if (count > to_end)
+        crc->crc = rlvc_crc(crc->crc, reader->buffer, count - to_end);
+    crc->at = to;
+}
+
+/* Takes C(p) up to the first unused byte, while the bytes before it are in the ring. Where no reach
+ * is beyond that, nothing depends on what was, and there is a new origin. */
+static void catch_up(rlvc_log_reader *reader) {
+    if (reader->furthest > reader->at) {
+        take_crc(reader, &reader->start, reader->at);
+    } else {
+        reader->start.crc = 0;
+        reader->start.at = reader->at;
+    }
+}
+
+static void advance(rlvc_log_reader *reader, uint32_t count) {
+    reader->from = place_of(reader, count);
+    reader->at += count;
+    reader->held -= count;
+}
+
 /* Gives up the first byte that is not used yet. */
 static void skip(rlvc_log_reader *reader) {
-    reader->from++;
+    advance(reader, 1);
     reader->skipped++;
     reader->damaged += !reader->skipping;
     reader->skipping = 1;
 }
 
-/* Bytes of the record that begins with this byte of kind; 0 if none does. */
-static uint32_t length_of(const rlvc_log_reader *reader, uint8_t kind) {
+/* Bytes of the record that begins with this byte of kind; 0 if none does.
+ * @param which of the four lengths it is: which reach is the record's */
+static uint32_t length_of(const rlvc_log_reader *reader, uint8_t kind, uint32_t *which) {
     uint32_t end = (uint32_t)kind >> END_SHIFT;
+    *which = 0;
     if (kind == RLVC_LOG_HEADER)
         return HEAD_BYTES + HEADER_BYTES + CRC_BYTES;
     if (reader->percept_bytes == 0)
         return 0;
+    *which = 1;
     if (kind == RLVC_LOG_BEGIN)
         return HEAD_BYTES + reader->percept_bytes + CRC_BYTES;
     if ((kind & KIND_MASK) != RLVC_LOG_OBSERVE || end > RLVC_TRUNCATED)
         return 0;
+    *which = end == RLVC_TERMINATED ? 2 : 3;
     return HEAD_BYTES + INTERACTION_BYTES + (end == RLVC_TERMINATED ? 0 : reader->percept_bytes) +
            CRC_BYTES;
+}
+
+/* Is the CRC of a record right that is held in full? */
+static int is_whole(rlvc_log_reader *reader, uint32_t length, uint32_t which) {
+    rlvc_log_crc *reach = &reader->reach[which];
+    uint32_t covered = length - CRC_BYTES, stored = 0;
+    catch_up(reader);
+    if (reach->at <= reader->at)
+        *reach = reader->start;
+    take_crc(reader, reach, reader->at + covered);
+    if (reach->at > reader->furthest)
+        reader->furthest = reach->at;
+    if (reader->shift[which].multiple[1] == 0)
+        rlvc_crc_shift_by(covered, reader->shift[which].multiple);
+    for (uint32_t i = CRC_BYTES; i-- > 0;)
+        stored = stored << 8 | reader->buffer[place_of(reader, covered + i)];
+    return (reach->crc ^ rlvc_crc_shift(reader->start.crc, reader->shift[which].multiple)) ==
+           stored;
 }
 
 /* Reads until `need` bytes are there. *there becomes 0 if the log ends before. */
 static rlvc_status fetch(rlvc_log_reader *reader, uint32_t need, int *there) {
     *there = 1;
-    while (reader->fill - reader->from < need) {
-        uint32_t got = 0;
-        if (reader->from > 0) {
-            reader->fill -= reader->from;
-            memmove(reader->buffer, reader->buffer + reader->from, reader->fill);
-            reader->from = 0;
-        }
-        uint32_t room = reader->room - reader->fill;
-        if (reader->read(reader->ctx, reader->buffer + reader->fill, room, &got) != 0 || got > room)
+    if (reader->held >= need)
+        return RLVC_OK;
+    catch_up(reader);
+    if (reader->held == 0)
+        reader->from = 0;
+    while (reader->held < need) {
+        uint32_t got = 0, place = place_of(reader, reader->held);
+        uint32_t room = place < reader->from ? reader->from - place : reader->room - place;
+        if (reader->read(reader->ctx, reader->buffer + place, room, &got) != 0 || got > room)
             return RLVC_E_STORE;
         if (got == 0) {
             *there = 0;
             return RLVC_OK;
         }
-        reader->fill += got;
+        reader->held += got;
     }
     return RLVC_OK;
 }
@@ -172,25 +244,42 @@ static rlvc_status find(rlvc_log_reader *reader, uint32_t *length) {
     *length = 0;
     for (;;) {
         int there = 0;
-        uint32_t need = 2;
-        rlvc_status status = fetch(reader, need, &there);
-        const unsigned char *at = reader->buffer + reader->from;
-        if (status == RLVC_OK && there) {
-            need = at[0] == MARK ? length_of(reader, at[1]) : 0;
+        uint32_t need = 0, which = 0;
+        rlvc_status status = fetch(reader, 2, &there);
+        if (status == RLVC_OK && there && reader->buffer[reader->from] == MARK) {
+            need = length_of(reader, reader->buffer[place_of(reader, 1)], &which);
             status = fetch(reader, need, &there);
-            at = reader->buffer + reader->from;
         }
         if (status != RLVC_OK)
             return status;
-        if (there && need > 0 &&
-            rlvc_crc(0, at, need - CRC_BYTES) == rlvc_get(at + need - CRC_BYTES, CRC_BYTES)) {
+        if (there && need > 0 && is_whole(reader, need, which)) {
             *length = need;
             return RLVC_OK;
         }
-        if (reader->from == reader->fill)
+        if (reader->held == 0)
             return RLVC_OK;
         skip(reader);
     }
+}
+
+static void reverse(unsigned char *byte, uint32_t count) {
+    for (uint32_t i = 0; i < count / 2u; i++) {
+        unsigned char other = byte[count - 1u - i];
+        byte[count - 1u - i] = byte[i];
+        byte[i] = other;
+    }
+}
+
+/* The record that is held from the first unused byte on, in one piece: if it goes across the ring's
+ * end, the ring is turned for it to begin where the buffer does. */
+static const unsigned char *in_one_piece(rlvc_log_reader *reader, uint32_t length) {
+    if (length > reader->room - reader->from) {
+        reverse(reader->buffer, reader->from);
+        reverse(reader->buffer + reader->from, reader->room - reader->from);
+        reverse(reader->buffer, reader->room);
+        reader->from = 0;
+    }
+    return reader->buffer + reader->from;
 }
 
 /* Takes a header's word for what is to come, if it is what was expected. */
@@ -279,9 +368,9 @@ rlvc_status rlvc_log_next(rlvc_log_reader *reader, rlvc_log_record *record) {
         reader->torn = length == 0 && reader->skipping;
         if (length == 0)
             return RLVC_OK;
-        const unsigned char *at = reader->buffer + reader->from;
+        const unsigned char *at = in_one_piece(reader, length);
         reader->skipping = 0;
-        reader->from += length;
+        advance(reader, length);
         status = take(reader, at, record);
         if (status != RLVC_OK || record->kind != RLVC_LOG_END)
             return status;
