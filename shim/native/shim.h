@@ -2,8 +2,8 @@
 /* What the Python package needs of C besides the library: loops over arrays, and the layout of the
  * structs as this compiler made it. Only the public interface is used.
  *
- * The functions are exported with the library's own; shim/rlvc/_native/bindings.py declares them. Pointers are
- * trusted: the package checks its arrays before it calls. */
+ * The functions are exported with the library's own; shim/rlvc/_native/bindings.py declares them.
+ * Pointers are trusted: the package checks its arrays before it calls. */
 #ifndef RLVC_SHIM_H
 #define RLVC_SHIM_H
 
@@ -88,6 +88,56 @@ RLVC_API rlvc_status rlvc_shim_records_read(const unsigned char *bytes, size_t c
  * @param values, policy [classes] */
 RLVC_API rlvc_status rlvc_shim_tables(const rlvc_agent *agent, uint32_t classes, uint32_t actions,
                                       float *q, uint32_t *samples, float *values, uint32_t *policy);
+
+/* Text that the library writes. */
+typedef struct rlvc_shim_text {
+    char *bytes;
+    size_t room;
+    size_t size; /* of all of the text; what is beyond `room` was not kept */
+} rlvc_shim_text;
+
+/* Appends to the rlvc_shim_text that `ctx` points to: an rlvc_write.
+ * @return 0 */
+RLVC_API int rlvc_shim_text_write(void *ctx, const char *bytes, size_t size);
+
+/* A store in memory: both slots, one after the other. */
+typedef struct rlvc_shim_memory {
+    unsigned char *bytes;
+    size_t size; /* 2 * slot_bytes */
+} rlvc_shim_memory;
+
+/* Fills *store, which uses *memory from then on. */
+RLVC_API void rlvc_shim_memory_store(rlvc_shim_memory *memory, uint32_t slot_bytes,
+                                     rlvc_store *store);
+
+/* The methods of a domain in Python, and the exception that one raised. A method gets addresses as
+ * numbers, and returns a number: exhibits 0 or 1, candidates how many it wrote, oracle how many it
+ * considered, the others 0. */
+typedef struct rlvc_shim_python {
+    void *exhibits, *candidates, *detect, *oracle,
+        *name;                      /* Python objects; may be null: detect, oracle */
+    void *type, *value, *traceback; /* of the exception; null: there is none */
+    uint32_t depth;                 /* how many methods are running */
+    uint32_t reserved;
+} rlvc_shim_python;
+
+/* Hands over the functions of Python's C interface: PyGILState_Ensure, PyGILState_Release,
+ * PyObject_CallFunction, PyLong_AsLongLong, PyErr_Fetch, PyErr_Restore, Py_DecRef. */
+RLVC_API void rlvc_shim_python_init(int (*ensure)(void), void (*release)(int),
+                                    void *(*call)(void *, const char *, ...),
+                                    long long (*number)(void *),
+                                    void (*fetch)(void **, void **, void **),
+                                    void (*restore)(void *, void *, void *), void (*drop)(void *));
+
+/* Fills the callbacks of *domain, which use *methods from then on. */
+RLVC_API void rlvc_shim_python_domain(rlvc_shim_python *methods, rlvc_domain *domain);
+
+/* Raises the exception that was kept, if there is one: to be called with the interpreter's lock.
+ * @return RLVC_E_CALLBACK */
+RLVC_API rlvc_status rlvc_shim_python_raise(rlvc_shim_python *methods);
+
+/* Drops the exception that was kept, if there is one: to be called with the interpreter's lock. */
+RLVC_API void rlvc_shim_python_forget(rlvc_shim_python *methods);
 
 /* Nothing, with the arguments of rlvc_act and rlvc_observe: what a call from Python costs at
  * least. */

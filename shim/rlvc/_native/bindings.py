@@ -556,6 +556,42 @@ class ShimRecords(c.Structure):
     ]
 
 
+class ShimText(c.Structure):
+    """``rlvc_shim_text``."""
+
+    _fields_ = [
+        ("bytes", c.c_void_p),
+        ("room", c.c_size_t),
+        ("size", c.c_size_t),
+    ]
+
+
+class ShimMemory(c.Structure):
+    """``rlvc_shim_memory``."""
+
+    _fields_ = [
+        ("bytes", c.c_void_p),
+        ("size", c.c_size_t),
+    ]
+
+
+class ShimPython(c.Structure):
+    """``rlvc_shim_python``."""
+
+    _fields_ = [
+        ("exhibits", c.c_void_p),
+        ("candidates", c.c_void_p),
+        ("detect", c.c_void_p),
+        ("oracle", c.c_void_p),
+        ("name", c.c_void_p),
+        ("type", c.c_void_p),
+        ("value", c.c_void_p),
+        ("traceback", c.c_void_p),
+        ("depth", c.c_uint32),
+        ("reserved", c.c_uint32),
+    ]
+
+
 class VisionError(c.Structure):
     """``rlvc_vision_error``."""
 
@@ -635,6 +671,9 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_shim_entry": ShimEntry,
     "rlvc_shim_log": ShimLog,
     "rlvc_shim_records": ShimRecords,
+    "rlvc_shim_text": ShimText,
+    "rlvc_shim_memory": ShimMemory,
+    "rlvc_shim_python": ShimPython,
     "rlvc_vision_error": VisionError,
     "rlvc_vision_config": VisionConfig,
     "rlvc_point": Point,
@@ -719,6 +758,14 @@ CORE: Functions = {
     "rlvc_shim_tables": (c.c_int, [
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
     ]),
+    "rlvc_shim_text_write": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t]),
+    "rlvc_shim_memory_store": (None, [c.c_void_p, c.c_uint32, c.c_void_p]),
+    "rlvc_shim_python_init": (None, [
+        c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
+    ]),
+    "rlvc_shim_python_domain": (None, [c.c_void_p, c.c_void_p]),
+    "rlvc_shim_python_raise": (c.c_int, [c.c_void_p]),
+    "rlvc_shim_python_forget": (None, [c.c_void_p]),
     "rlvc_shim_empty_act": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_shim_empty_observe": (c.c_int, [c.c_void_p, Choice, c.c_float, c.c_void_p, c.c_uint8]),
     "rlvc_shim_sutton": (c.POINTER(GridworldMaze), []),

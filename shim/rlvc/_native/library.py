@@ -121,6 +121,15 @@ long_call: Any = _load(PATH, c.CDLL)
 check_version(long_call.rlvc_version().decode(), PATH)
 check_layout(layout_of(long_call), PATH)
 call: Any = _load(PATH, c.PyDLL)
+call.rlvc_shim_python_init(
+    c.pythonapi.PyGILState_Ensure,
+    c.pythonapi.PyGILState_Release,
+    c.pythonapi.PyObject_CallFunction,
+    c.pythonapi.PyLong_AsLongLong,
+    c.pythonapi.PyErr_Fetch,
+    c.pythonapi.PyErr_Restore,
+    c.pythonapi.Py_DecRef,
+)
 
 
 def status_text(status: int) -> str:

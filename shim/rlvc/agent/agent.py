@@ -112,6 +112,7 @@ class Agent(Looking):
             There is no current percept.
         """
         choice = self._choice
+        self._chosen = _NOTHING  # should Ctrl-C come between the call and the next line
         status = _act(self._handle, self._choice_reference)
         if status:
             self._fail(status)

@@ -183,8 +183,9 @@ class Batch:
         """Let C see the first `count` environments, or all."""
         if count is not None and (not isinstance(count, int) or not 0 <= count <= self._count):
             raise RangeError(f"count: {count!r} is not in [0, {self._count}]")
-        self._taken = count
+        self._taken = -1  # should Ctrl-C come before the last line
         self._native.count = self._count if count is None else count
+        self._taken = count
 
     def act(self, count: int | None = None) -> npt.NDArray[Any]:
         """Choose an action for each environment: what ``begin`` and ``act`` do for one.

@@ -48,6 +48,8 @@ _ERRORS: dict[int, type[Error]] = {
     _native.E_VERSION: SnapshotError,
     _native.E_MISMATCH: SnapshotError,
 }
+_TEXT_ROOM = 1 << 16  # bytes; a longer text is written once more
+_WRITE = ctypes.cast(_native.call.rlvc_shim_text_write, _native.WRITE)
 _byref = ctypes.byref
 _Self = TypeVar("_Self", bound="Handle")
 
@@ -110,9 +112,8 @@ class Handle:
             self._fail(status, index)
 
     def _fail(self, status: int, index: int | None = None) -> None:
-        error, self._guard.error = self._guard.error, None
-        if error is not None:
-            raise error
+        if status == _native.E_CALLBACK:
+            self._guard.reraise()
         if status == _native.E_NULL:
             if getattr(self, "_address", 0) is None:
                 raise ClosedError("the agent is closed")
@@ -163,9 +164,7 @@ class Handle:
         forms = {"text": _native.PRINT_TEXT, "dot": _native.PRINT_DOT, "json": _native.PRINT_JSON}
         if form not in forms:
             raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
-        parts: list[bytes] = []
-        self._check(self._long(self._print, forms[form], self._writer(parts), None))
-        return b"".join(parts).decode()
+        return self._written(self._print, forms[form])
 
     def export_c(self, name: str = "policy") -> str:
         """Give the policy as a C99 header for a controller that only acts.
@@ -193,23 +192,25 @@ class Handle:
         Compile such a header with ``-ffp-contract=off``, and the action is the same as here for every
         percept, bit for bit. Source: ``core/include/rlvc/export.h``.
         """
-        parts: list[bytes] = []
-        self._check(self._long(self._export, name.encode(), self._writer(parts), None, None))
-        return b"".join(parts).decode()
+        return self._written(self._export, self._identifier(name), None)
 
-    def _writer(self, parts: list[bytes]) -> Any:
-        """Make a callback that appends what the library writes."""
-        guard = self._guard
+    @staticmethod
+    def _identifier(name: str) -> bytes:
+        """The name of an exported policy, as C takes it; C says whether it is an identifier."""
+        if not isinstance(name, str) or not name.isascii() or "\0" in name:
+            raise RangeError(f"name: {name!r:.80} is no identifier of C")
+        return name.encode()
 
-        def write(_ctx: int | None, text: int, size: int) -> int:
-            try:
-                parts.append(ctypes.string_at(text, size))
-            except BaseException as error:  # out of memory, or Ctrl-C
-                guard.error = error
-                return 1
-            return 0
-
-        return _native.WRITE(write)
+    def _written(self, name: str, what: Any, *rest: Any) -> str:
+        """Give what a function of the library writes."""
+        room = _TEXT_ROOM
+        while True:
+            buffer = np.empty(room, np.uint8)
+            text = _native.ShimText(buffer.ctypes.data, room)
+            self._check(self._long(name, what, _WRITE, _byref(text), *rest))
+            if text.size <= room:
+                return buffer[: text.size].tobytes().decode()
+            room = text.size
 
     # -------------------------------------------------------------- the end
 
@@ -223,7 +224,7 @@ class Handle:
         """
         if self._address is None:
             return
-        if self._handle is None or self._guard.depth > 0:
+        if self._handle is None or self._guard.inside:
             raise ReenteredError("the agent is in a call: it cannot be closed")
         self._handle = self._address = None
         self._block = None

@@ -16,6 +16,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .. import _native
 from ..domains.bits import Bits
 from ..domains.descriptors import Descriptors
@@ -31,7 +33,7 @@ _MAGIC = b"rlvc agent 1\n"
 
 
 class MemoryStore:
-    """An ``rlvc_store`` in memory.
+    """An ``rlvc_store`` in memory, whose callbacks are C.
 
     Parameters
     ----------
@@ -41,24 +43,15 @@ class MemoryStore:
     """
 
     def __init__(self, slot_bytes: int, snapshot: bytes = b"") -> None:
+        self._slots = np.zeros((2, slot_bytes), np.uint8)
         # A longer one than any of this agent's cannot be whole.
-        self.data = bytearray(2 * slot_bytes)
-        self.data[: min(len(snapshot), slot_bytes)] = snapshot[:slot_bytes]
+        first = np.frombuffer(snapshot, np.uint8)[:slot_bytes]
+        self._slots[0, : len(first)] = first
+        self._memory = _native.ShimMemory(self._slots.ctypes.data, self._slots.nbytes)
         self.native = _native.Store()
-        self.native.slot_bytes = slot_bytes
-        self.native.read = _native.STORE_READ(self._read)
-        self.native.write = _native.STORE_WRITE(self._write)
-
-    def _read(self, _ctx: int | None, offset: int, buffer: int, count: int) -> int:
-        part = bytes(self.data[offset : offset + count])
-        ctypes.memmove(buffer, part, len(part))
-        return int(len(part) != count)
-
-    def _write(self, _ctx: int | None, offset: int, buffer: int, count: int) -> int:
-        if offset + count > len(self.data):
-            return 1
-        self.data[offset : offset + count] = ctypes.string_at(buffer, count)
-        return 0
+        _native.call.rlvc_shim_memory_store(
+            ctypes.byref(self._memory), slot_bytes, ctypes.byref(self.native)
+        )
 
     def peek(self) -> tuple[int, _native.SnapshotInfo]:
         """Look at the newest snapshot: the library's status, and what it is."""
@@ -71,8 +64,7 @@ class MemoryStore:
         status, info = self.peek()
         if status != _native.OK:
             raise SnapshotError(_native.status_text(status))
-        start = info.slot * self.native.slot_bytes
-        return bytes(self.data[start : start + info.bytes])
+        return self._slots[info.slot, : info.bytes].tobytes()
 
 
 def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:

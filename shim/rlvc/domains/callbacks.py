@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,68 +17,62 @@ if TYPE_CHECKING:
 
 
 class Guard:
-    """What the callbacks of one agent's domain tell the agent.
+    """What C knows of a domain's methods: whether one is running, and the exception that one raised.
 
     Attributes
     ----------
-    error : BaseException or None
-        What a callback raised, until the call that caused it raises it again.
-    depth : int
-        How many callbacks are running.
+    methods : rlvc_shim_python
     """
 
     def __init__(self) -> None:
-        self.error: BaseException | None = None
-        self.depth = 0
+        self.methods = _native.ShimPython()
+
+    @property
+    def inside(self) -> bool:
+        """Whether a method is running."""
+        return int(self.methods.depth) > 0
+
+    def reraise(self) -> None:
+        """Raise what a method raised, if one did since the last time."""
+        _native.call.rlvc_shim_python_raise(ctypes.byref(self.methods))
 
 
 class Callbacks:
-    """The C callbacks of a domain in Python. Each returns 0, or 1 after it has kept an exception."""
+    """The methods of a domain in Python, as ``native/python.c`` calls them.
+
+    They get addresses and return a number. What they raise comes out of the agent's call, and so does
+    Ctrl-C at any moment.
+    """
 
     def __init__(self, domain: Domain, guard: Guard) -> None:
         self.domain = domain
         self.guard = guard
+        self.percept_dtype, self.percept_shape = domain.percept_dtype, domain.percept_shape
+        self.percept_bytes, self.feature_bytes = domain.percept_bytes, domain.feature_bytes
+        self.feature_dtype = domain.feature_dtype
         self.listed: tuple[bytes, bytes] | None = None  # samples, and the candidates for them
 
     def native(self) -> _native.Domain:
         """Make the C struct, which keeps its callbacks alive."""
-        domain = self.domain
+        domain, methods = self.domain, self.guard.methods
         native = _native.Domain()
-        native.percept_bytes = domain.percept_bytes
-        native.feature_bytes = domain.feature_bytes
+        native.percept_bytes = self.percept_bytes
+        native.feature_bytes = self.feature_bytes
         native.features_max = domain.features_max
-        native.exhibits = _native.DOMAIN_EXHIBITS(self.guarded(self.exhibits))
-        native.name = _native.DOMAIN_NAME(self.guarded(self.name))
-        native.candidates = _native.DOMAIN_CANDIDATES(self.guarded(self.candidates))
-        if domain.detect is not None:
-            native.detect = _native.DOMAIN_DETECT(self.guarded(self.detect))
-        if domain.oracle is not None:
-            native.oracle = _native.DOMAIN_ORACLE(self.guarded(self.oracle))
+        called = [self.exhibits, self.candidates, self.name]
+        methods.exhibits, methods.candidates, methods.name = map(id, called)
+        for name in ("detect", "oracle"):
+            if getattr(domain, name) is not None:
+                called.append(getattr(self, name))
+                setattr(methods, name, id(called[-1]))
+        _native.call.rlvc_shim_python_domain(ctypes.byref(methods), ctypes.byref(native))
+        native._keeps = (methods, called)
         return native
-
-    def guarded(self, callback: Callable[..., None]) -> Callable[..., int]:
-        """Wrap a callback: what it raises is kept, and C gets 1."""
-        guard = self.guard
-
-        def call(_ctx: int | None, *arguments: Any) -> int:
-            guard.depth += 1
-            try:
-                callback(*arguments)
-            except (
-                BaseException
-            ) as error:  # KeyboardInterrupt too: it comes out of the agent's call
-                guard.error = error
-                return 1
-            finally:
-                guard.depth -= 1
-            return 0
-
-        return call
 
     def percepts(self, records: bytes, count: int) -> npt.NDArray[Any]:
         """Give records as an array of percepts."""
-        flat = np.frombuffer(records, self.domain.percept_dtype)
-        return flat.reshape(count, *self.domain.percept_shape)
+        flat = np.frombuffer(records, self.percept_dtype)
+        return flat.reshape(count, *self.percept_shape)
 
     def gather(self, samples: _native.Samples, first: int, count: int) -> npt.NDArray[Any]:
         """Copy the percepts of some samples: [count, *percept_shape]."""
@@ -95,40 +88,39 @@ class Callbacks:
             np.frombuffer(ring, np.uint8).reshape(top, record)[slots].tobytes(), count
         )
 
-    def exhibits(self, percept: int, feature: int, present: Any) -> None:
+    def feature(self, address: int) -> Any:
+        """Give the feature whose record is there."""
+        return self.domain.feature(ctypes.string_at(address, self.feature_bytes))
+
+    def exhibits(self, percept: int, feature: int) -> int:
         """``rlvc_domain.exhibits``."""
-        domain = self.domain
-        one = self.percepts(ctypes.string_at(percept, domain.percept_bytes), 1)[0]
-        answer = domain.exhibits(
-            one, domain.feature(ctypes.string_at(feature, domain.feature_bytes))
-        )
+        one = self.percepts(ctypes.string_at(percept, self.percept_bytes), 1)[0]
+        answer = self.domain.exhibits(one, self.feature(feature))
         if not isinstance(answer, bool | np.bool_):
-            raise DomainError(f"exhibits() returned {answer!r}, not a bool")
-        present[0] = bool(answer)
+            raise DomainError(f"exhibits() returned {answer!r:.80}, not a bool")
+        return int(answer)
 
-    def name(self, feature: int, text: int, room: int) -> None:
+    def name(self, feature: int, text: int, room: int) -> int:
         """``rlvc_domain.name``."""
-        record = ctypes.string_at(feature, self.domain.feature_bytes)
-        encoded = checked_name(self.domain.name(self.domain.feature(record)), room)
+        encoded = checked_name(self.domain.name(self.feature(feature)), room)
         ctypes.memmove(text, encoded + b"\0", len(encoded) + 1)
+        return 0
 
-    def candidates(
-        self, reference: Any, first: int, room: int, features: int, written: Any
-    ) -> None:
+    def candidates(self, address: int, first: int, room: int, features: int) -> int:
         """``rlvc_domain.candidates``: lists the features once, and copies a part of them."""
-        samples = reference[0]
+        samples = _native.Samples.from_address(address)
         key = ctypes.string_at(samples.sample, samples.count * ctypes.sizeof(_native.Sample))
         if first == 0 or self.listed is None or self.listed[0] != key:
             found = self.domain.candidates(self.gather(samples, 0, samples.count))
             self.listed = (key, self.records(found))
-        size = self.domain.feature_bytes
+        size = self.feature_bytes
         part = self.listed[1][first * size : (first + room) * size]
         ctypes.memmove(features, part, len(part))
-        written[0] = len(part) // size
+        return len(part) // size
 
     def records(self, features: Any) -> bytes:
         """Give the records of an array of features."""
-        wanted = self.domain.feature_dtype
+        wanted = self.feature_dtype
         if not isinstance(features, np.ndarray) or features.ndim != 1 or features.dtype != wanted:
             kind = getattr(features, "dtype", type(features).__name__)
             raise DomainError(
@@ -138,45 +130,47 @@ class Callbacks:
         return features.tobytes()
 
     def detect(
-        self, reference: Any, first: int, n: int, features: int, m: int, columns: Any
-    ) -> None:
+        self, address: int, first: int, n: int, features: int, m: int, columns: int
+    ) -> int:
         """``rlvc_domain.detect``."""
         domain = self.domain
         assert domain.detect is not None
         offered = np.frombuffer(
-            ctypes.string_at(features, m * domain.feature_bytes), domain.feature_dtype
+            ctypes.string_at(features, m * self.feature_bytes), self.feature_dtype
         )
-        answer = domain.detect(self.gather(reference[0], first, n), offered)
+        samples = _native.Samples.from_address(address)
+        answer = domain.detect(self.gather(samples, first, n), offered)
         if not isinstance(answer, np.ndarray) or answer.dtype != np.bool_ or answer.shape != (n, m):
             raise DomainError(f"detect() returned {answer!r:.80}, not an array bool[{n}, {m}]")
         words = np.zeros((m, _native.DETECT_SAMPLES // 8), np.uint8)
         packed = np.packbits(answer.T, axis=1, bitorder="little")
         words[:, : packed.shape[1]] = packed
-        for j, word in enumerate(words.view("<u8")[:, 0]):
-            columns[j] = int(word)
+        native = words.view("<u8").astype(np.uint64)
+        ctypes.memmove(columns, native.ctypes.data, native.nbytes)
+        return 0
 
-    def oracle(self, reference: Any, below: int, feature: int, considered: Any) -> None:
+    def oracle(self, address: int, below: int, feature: int) -> int:
         """``rlvc_domain.oracle``."""
         domain = self.domain
         assert domain.oracle is not None
-        answer = domain.oracle(self.gather(reference[0], 0, reference[0].count), below)
+        samples = _native.Samples.from_address(address)
+        answer = domain.oracle(self.gather(samples, 0, samples.count), below)
         if answer is None:
-            considered[0] = 0
-            return
+            return 0
         try:
             proposed, among = answer
             count = int(among.__index__())
             record = (
-                np.array([proposed]).astype(domain.feature_dtype, casting="same_kind").tobytes()
+                np.array([proposed]).astype(self.feature_dtype, casting="same_kind").tobytes()
             )
         except (AttributeError, TypeError, ValueError) as error:
             raise DomainError(
                 f"oracle() returned {answer!r:.80}, not (feature, considered) or None"
             ) from error
-        if len(record) != domain.feature_bytes or not 1 <= count < 2**32:
+        if len(record) != self.feature_bytes or not 1 <= count < 2**32:
             raise DomainError(f"oracle() returned {answer!r:.80}: considered is at least 1")
         ctypes.memmove(feature, record, len(record))
-        considered[0] = count
+        return count
 
 
 def checked_name(name: object, room: int = _native.NAME_BYTES) -> bytes:
