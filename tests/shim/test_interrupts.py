@@ -79,7 +79,7 @@ def test_learning_with_a_domain_of_ones_own(walk, ctrl_c, make):
     snapshot = whole.snapshot()
     count = ctrl_c(0, whole.learn)
     wanted = whole.print("json")
-    for number in chosen(count, 60):
+    for number in chosen(count, 25):
         agent = rlvc.Agent.restore(make(), whole.config, snapshot)
         assert ctrl_c(number, agent.learn), number
         agent.check()
@@ -104,7 +104,7 @@ def test_calls_that_change_nothing(walk, ctrl_c, make, what):
         "act": agent.act,
     }
     wanted = agent.snapshot()
-    for number in chosen(ctrl_c(0, calls[what]), 150):
+    for number in chosen(ctrl_c(0, calls[what]), 60):
         ctrl_c(number, calls[what])
         agent.check()
         if what != "act":
