@@ -77,6 +77,7 @@ LOG_END = 0
 LOG_HEADER = 1
 LOG_BEGIN = 2
 LOG_OBSERVE = 3
+LOG_LENGTHS = 4
 SNAPSHOT_VERSION = 1
 STORE_UNIT = 64
 SLOT_BYTES_MAX = 2147483584
@@ -357,6 +358,23 @@ class LogRecord(c.Structure):
     ]
 
 
+class LogCrc(c.Structure):
+    """``rlvc_log_crc``."""
+
+    _fields_ = [
+        ("at", c.c_uint64),
+        ("crc", c.c_uint32),
+    ]
+
+
+class LogShift(c.Structure):
+    """``rlvc_log_shift``."""
+
+    _fields_ = [
+        ("multiple", c.c_uint32 * 16),
+    ]
+
+
 LOG_READER_READ = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.POINTER(c.c_uint32))
 
 
@@ -371,7 +389,12 @@ class LogReader(c.Structure):
         ("percept_bytes", c.c_uint32),
         ("actions", c.c_uint32),
         ("from", c.c_uint32),
-        ("fill", c.c_uint32),
+        ("held", c.c_uint32),
+        ("at", c.c_uint64),
+        ("start", LogCrc),
+        ("reach", LogCrc * 4),
+        ("furthest", c.c_uint64),
+        ("shift", LogShift * 4),
         ("skipped", c.c_uint64),
         ("damaged", c.c_uint32),
         ("lost", c.c_uint32),
@@ -657,6 +680,8 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_fewest_tree": FewestTree,
     "rlvc_log_writer": LogWriter,
     "rlvc_log_record": LogRecord,
+    "rlvc_log_crc": LogCrc,
+    "rlvc_log_shift": LogShift,
     "rlvc_log_reader": LogReader,
     "rlvc_policy_config": PolicyConfig,
     "rlvc_policy_info": PolicyInfo,
