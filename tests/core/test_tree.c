@@ -64,9 +64,26 @@ static uint32_t compare_walk(uint32_t node, uint32_t *at, uint32_t depth) {
     return left > right ? left : right;
 }
 
+/* Built of its splits at once the tree is what it has grown to be. */
+static void compare_built(void) {
+    uint32_t node[2u * CLASSES - 1u], split[CLASSES], depth = tree.depth;
+    memcpy(node, tree.node, sizeof node);
+    for (uint32_t j = 0; j + 1u < tree.classes; j++) {
+        split[j] = tree.split[j].node;
+        tree.split[j].node = UINT32_MAX;
+    }
+    memset(tree.node, 0xa5, (2u * tree.classes - 1u) * sizeof *tree.node);
+    rlvc_tree_build(&tree, tree.classes);
+    assert_memory_equal(tree.node, node, sizeof node);
+    assert_int_equal(tree.depth, depth);
+    for (uint32_t j = 0; j + 1u < tree.classes; j++)
+        assert_int_equal(tree.split[j].node, split[j]);
+}
+
 static void check_tree(void) {
     uint32_t at = 0;
     assert_true(rlvc_tree_check(&tree));
+    compare_built();
     assert_int_equal(compare_walk(0, &at, 0), tree.depth);
     assert_int_equal(at, 0);
     for (uint32_t percept = 0; percept < 1u << BITS; percept += 37u) {

@@ -278,7 +278,7 @@ RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progres
  * It is for before a tree is read or deployed, and for a world that has changed: the next
  * rlvc_learn tests the classes again, and splits again what it finds to differ. The standard errors
  * are those of independent samples, which those of one trajectory are not. O(capacity + classes *
- * (actions + depth)).
+ * actions).
  * @param tolerance  in units of return, [0, RLVC_REWARD_MAX]
  * @param deviations [0, 1000]; 0: only the tolerance counts
  * @param undone     how many splits were undone

@@ -113,22 +113,23 @@ static void number_classes(pruner *p) {
     }
 }
 
-/* Grows the splits again that are left. None comes to stand behind where it stood. */
-static void grow_again(pruner *p) {
+/* Builds the tree of the splits that are left. None comes to stand behind where it stood. */
+static void build_again(pruner *p) {
     rlvc_agent *agent = p->agent;
     rlvc_tree *tree = &agent->tree;
-    const uint32_t classes = tree->classes;
-    rlvc_tree_clear(tree);
+    uint32_t left = 0;
     agent->last_split = 0;
-    for (uint32_t j = 0; j + 1u < classes; j++) {
-        rlvc_split about = tree->split[j].about;
-        if (p->gone[j + 1u] != tree->classes)
+    for (uint32_t j = 0; j + 1u < tree->classes; j++) {
+        if (p->gone[j + 1u] != left + 1u)
             continue;
-        about.class_id = p->gone[about.class_id];
-        memcpy(agent->space.alone, rlvc_tree_feature(tree, j), tree->feature_bytes);
-        rlvc_tree_grow(tree, &about, agent->space.alone);
-        agent->last_split = about.step;
+        rlvc_split *about = &tree->split[left].about;
+        *about = tree->split[j].about;
+        about->class_id = p->gone[about->class_id];
+        memmove(rlvc_tree_feature(tree, left), rlvc_tree_feature(tree, j), tree->feature_bytes);
+        agent->last_split = about->step;
+        left++;
     }
+    rlvc_tree_build(tree, left + 1u);
 }
 
 static void label_again(pruner *p) {
@@ -159,7 +160,7 @@ rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations, uin
     memset(p.gone, 0, classes * sizeof *p.gone);
     *undone = undo_splits(&p);
     number_classes(&p);
-    grow_again(&p);
+    build_again(&p);
     label_again(&p);
     memset(p.gone, 0, classes * sizeof *p.gone);
     memset(agent->values.reward, 0,

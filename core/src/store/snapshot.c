@@ -101,18 +101,16 @@ static int split_is_sound(const rlvc_agent *agent, const rlvc_split *about, uint
            is_number(about->score) && is_number(about->log_p);
 }
 
-/* The tree is loaded by growing it again, so that its nodes need not be passed, nor believed. */
+/* The tree is built of its splits, so that its nodes need not be passed, nor believed. */
 static int pass_tree(rlvc_stream *s, rlvc_agent *agent) {
     rlvc_tree *tree = &agent->tree;
     uint32_t classes = tree->classes;
+    int loading = s->mode == RLVC_STREAM_LOAD;
     rlvc_stream_u32(s, &classes);
     if (classes < 1u || classes > tree->classes_max)
         return 0;
     for (uint32_t j = 0; j + 1u < classes; j++) {
-        int loading = s->mode == RLVC_STREAM_LOAD;
-        rlvc_split made = {0, 0, 0, 0, 0.0f, 0.0f, 0.0f};
-        rlvc_split *about = loading ? &made : &tree->split[j].about;
-        unsigned char *feature = loading ? agent->space.alone : rlvc_tree_feature(tree, j);
+        rlvc_split *about = &tree->split[j].about;
         rlvc_stream_u32(s, &about->class_id);
         rlvc_stream_u32(s, &about->step);
         rlvc_stream_u32(s, &about->action);
@@ -120,12 +118,12 @@ static int pass_tree(rlvc_stream *s, rlvc_agent *agent) {
         rlvc_stream_float(s, &about->log_tests);
         rlvc_stream_float(s, &about->score);
         rlvc_stream_float(s, &about->log_p);
-        rlvc_stream_bytes(s, feature, tree->feature_bytes);
+        rlvc_stream_bytes(s, rlvc_tree_feature(tree, j), tree->feature_bytes);
         if (loading && !split_is_sound(agent, about, j))
             return 0;
-        if (loading)
-            rlvc_tree_grow(tree, about, feature);
     }
+    if (loading)
+        rlvc_tree_build(tree, classes);
     return 1;
 }
 

@@ -81,53 +81,73 @@ uint32_t rlvc_tree_depth(const rlvc_tree *tree, uint32_t node) {
     return depth;
 }
 
-/* Was split j made of an older node, which leads to the two that it made? */
+/* The class of the percepts that came to a node when it was made. */
+static uint32_t first_class(const rlvc_tree *tree, uint32_t node) {
+    return node % 2u == 0 ? node / 2u : tree->split[(node - 1u) / 2u].about.class_id;
+}
+
+/* Tests on the longest path: counted along the walk, as it goes down and up. */
+static uint32_t deepest(const rlvc_tree *tree) {
+    uint32_t node = 0, depth = 0, most = 0;
+    do {
+        if (!rlvc_tree_is_leaf(tree, node)) {
+            depth++;
+            most = depth > most ? depth : most;
+        } else {
+            for (uint32_t at = node; at != 0 && at % 2u == 0; at = rlvc_tree_parent(tree, at))
+                depth--;
+        }
+        node = rlvc_tree_walk(tree, node);
+    } while (node != 0);
+    return most;
+}
+
+/* While the splits are gone through, node[2c] is the leaf that class c has come to. */
+void rlvc_tree_build(rlvc_tree *tree, uint32_t classes) {
+    RLVC_ASSERT(classes >= 1 && classes <= tree->classes_max);
+    tree->classes = classes;
+    for (uint32_t c = 0; c < classes; c++)
+        tree->node[2u * c] = 2u * c;
+    for (uint32_t j = 0; j + 1u < classes; j++) {
+        uint32_t *leaf = &tree->node[2u * tree->split[j].about.class_id];
+        tree->split[j].node = *leaf;
+        *leaf = 2u * j + 1u;
+    }
+    for (uint32_t node = 0; node < 2u * classes - 1u; node++)
+        tree->node[node] = RLVC_LEAF | first_class(tree, node);
+    for (uint32_t j = 0; j + 1u < classes; j++)
+        tree->node[tree->split[j].node] = 2u * j + 1u;
+    tree->depth = deepest(tree);
+}
+
+/* Was split j made of an older node of its class, which leads to the two that it made? Where that
+ * is so of all splits before j, this node ends the chain of the class. */
 static int split_is_sound(const rlvc_tree *tree, uint32_t j) {
     const rlvc_tree_split *split = &tree->split[j];
     return split->node <= 2u * j && tree->node[split->node] == 2u * j + 1u &&
-           split->about.class_id <= j;
+           first_class(tree, split->node) == split->about.class_id;
 }
 
-/* Is a node a leaf of some class, or the node of some split? With sound splits every way down the
+/* Is a node a leaf of its class, or the node of some split? With sound splits every way down the
  * tree then leads to younger nodes, and ends. */
 static int node_is_sound(const rlvc_tree *tree, uint32_t node) {
     if (rlvc_tree_is_leaf(tree, node))
-        return rlvc_tree_class(tree, node) < tree->classes;
+        return rlvc_tree_class(tree, node) == first_class(tree, node);
     uint32_t split = rlvc_tree_split_of(tree, node);
     return split < tree->classes - 1u && tree->split[split].node == node;
-}
-
-/* Does the chain of a split's class lead to its node? */
-static int history_is_sound(const rlvc_tree *tree, uint32_t j) {
-    const rlvc_tree_split *split = &tree->split[j];
-    uint32_t node = 2u * split->about.class_id;
-    while (node < split->node && !rlvc_tree_is_leaf(tree, node))
-        node = tree->node[node];
-    return node == split->node;
 }
 
 /* In an order in which each loop may rely on those before it, so that no damage leads it astray. */
 int rlvc_tree_check(const rlvc_tree *tree) {
     if (tree->classes < 1 || tree->classes > tree->classes_max)
         return 0;
-    uint32_t nodes = 2u * tree->classes - 1u, splits = tree->classes - 1u, depth = 0;
-    for (uint32_t j = 0; j < splits; j++) {
+    for (uint32_t j = 0; j + 1u < tree->classes; j++) {
         if (!split_is_sound(tree, j))
             return 0;
     }
-    for (uint32_t node = 0; node < nodes; node++) {
+    for (uint32_t node = 0; node < 2u * tree->classes - 1u; node++) {
         if (!node_is_sound(tree, node))
             return 0;
     }
-    for (uint32_t j = 0; j < splits; j++) {
-        if (!history_is_sound(tree, j))
-            return 0;
-    }
-    for (uint32_t node = 0; node < nodes; node++) {
-        uint32_t above = rlvc_tree_depth(tree, node);
-        depth = above > depth ? above : depth;
-        if (rlvc_tree_is_leaf(tree, node) && leaf_of(tree, rlvc_tree_class(tree, node)) != node)
-            return 0;
-    }
-    return depth == tree->depth;
+    return deepest(tree) == tree->depth;
 }

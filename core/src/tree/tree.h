@@ -67,6 +67,10 @@ rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain,
  * O(depth). */
 void rlvc_tree_grow(rlvc_tree *tree, const rlvc_split *about, const void *feature);
 
+/* Makes the tree of splits [0, classes - 1), whose `about` and features are in their places: as if
+ * they had been grown one after another. about.class_id of split j is at most j. O(classes). */
+void rlvc_tree_build(rlvc_tree *tree, uint32_t classes);
+
 /* The node above a node other than the root. O(1). */
 static inline uint32_t rlvc_tree_parent(const rlvc_tree *tree, uint32_t node) {
     return tree->split[(node - 1u) / 2u].node;
@@ -79,7 +83,7 @@ uint32_t rlvc_tree_walk(const rlvc_tree *tree, uint32_t node);
 /* Tests above a node. O(depth). */
 uint32_t rlvc_tree_depth(const rlvc_tree *tree, uint32_t node);
 
-/* @return 1 if every invariant holds. O(nodes * depth). */
+/* @return 1 if every invariant holds. O(nodes). */
 int rlvc_tree_check(const rlvc_tree *tree);
 
 #endif
