@@ -21,6 +21,7 @@ import rlvc
 import rlvc.envs
 from rlvc import plot, report
 from rlvc.plot import mazes
+from rlvc.plot.drawing import tidy
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -94,7 +95,7 @@ def draw_returns(rows, bit, file):
     axes.set_xlabel("what moving up earned in class 0, in units of reward")
     axes.set_ylabel("interactions")
     axes.legend(frameon=False)
-    axes.spines[["top", "right"]].set_visible(False)
+    tidy(axes, grid="y")
     save(figure, file)
 
 
@@ -128,7 +129,7 @@ def draw_gains(found, file):
     axes.set_xticks(range(18))
     axes.set_xlabel("bit (hatched: noise)")
     axes.set_ylabel("gain, in thousandths of a bit")
-    axes.spines[["top", "right"]].set_visible(False)
+    tidy(axes, grid="y")
     save(figure, file)
 
 

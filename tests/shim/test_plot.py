@@ -60,7 +60,7 @@ def test_from_an_agent_and_a_run(run, kind, tmp_path):
     with pytest.raises(errors.RunError, match="no maze"):
         plot.maze(run)
     for draw in (plot.tiles, plot.features):
-        with pytest.raises(errors.RunError, match="cannot be drawn"):
+        with pytest.raises(errors.RunError, match="the report has no"):
             draw(run)
     with pytest.raises(errors.RunError, match="no history"):
         plot.learning_curve(run.agent)

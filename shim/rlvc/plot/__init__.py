@@ -1,12 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""Pictures that explain what was learnt.
+"""Figures of a run.
 
-Each function draws from a report (a dict, or the file that ``run_gridworld --json`` or
-:mod:`rlvc.report` wrote), a :class:`~rlvc.Run` or an :class:`~rlvc.Agent`, as far as it has what is to
-be drawn, and saves to a PNG or an SVG if it is given a file's name.
+All functions take the same parameters:
 
-The colours are those of the cividis map and of Okabe and Ito's palette, which the colour-blind can
-tell apart; nothing is said by colour alone.
+``source``
+    A report as a dict, the file of a report (``run_gridworld --json`` and ``python -m rlvc learn
+    --json`` write them), a :class:`~rlvc.Run` or an :class:`~rlvc.Agent`. Each function lists the
+    members of the report that it needs.
+``file``
+    Where to save the figure: a .png or a .svg. None: it is not saved.
+``objects``
+    The pictures of the Tiled Gridworld: the ``objects`` of its environment. None: they are read from
+    the folder that the report names, or rendered; this needs the vision module.
+
+They return the figure, and raise :class:`~rlvc.errors.RunError` if the source lacks a member or the
+file is neither a .png nor a .svg.
+
+The colours are those of the cividis map and of Okabe and Ito's palette, which colour-blind people can
+tell apart. No information is in colour alone.
 """
 
 from __future__ import annotations
@@ -29,6 +40,6 @@ KINDS = {
     "tiles": tiles,
     "features": features,
 }
-"""The functions by the names that the command ``python -m rlvc plot`` knows them by."""
+"""The functions by the names that ``python -m rlvc plot`` uses."""
 
 __all__ = ["KINDS", "features", "learning_curve", "maze", "splits", "tiles", "tree", "values"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What happened meanwhile: learning curves, and when which feature was found."""
+"""Learning curves, and the splits over time."""
 
 from __future__ import annotations
 
@@ -9,31 +9,17 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from ..errors import RunError
-from .drawing import BLUE, GREY, ORANGE, Source, explained, need, reports, save
+from .drawing import BLUE, GREY, ORANGE, Source, explained, need, reports, save, tidy
 
 
 def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
-    """Draw classes, and optimal cells or the mean return, over interactions.
+    """Draw the number of classes, and of optimal cells or the mean return, over interactions.
 
-    Parameters
-    ----------
-    source : dict, path or Run
-        With ``history``; all runs of a report are drawn.
-    file : str, Path or None
-        A PNG or an SVG.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    RunError
-        The source has no history, or the file is neither PNG nor SVG.
+    Needs ``history``. All runs of a report are drawn.
     """
     runs = [need(run, "history") for run in reports(source)]
     if not runs[0]["history"]:
-        raise RunError("cannot be drawn: no learning step in it")
+        raise RunError("the report has no learning step to draw")
     optimal = "optimal_cells" in runs[0]["history"][0]
     second = "optimal_cells" if optimal else "mean_return"
     figure = Figure(figsize=(7, 5), layout="constrained")
@@ -54,7 +40,7 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
             markersize=3.5,
         )
     upper.set_ylabel("classes")
-    lower.set_ylabel("optimal cells" if optimal else "mean return of an episode")
+    lower.set_ylabel("optimal cells" if optimal else "mean return while learning")
     lower.set_xlabel("interactions")
     if optimal and "cells" in runs[0]:
         lower.axhline(runs[0]["cells"], color=GREY, linewidth=0.9, linestyle=":")
@@ -70,38 +56,22 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
             color=GREY,
         )
         lower.set_ylim(top=1.15 * runs[0]["cells"])
-    for axes in (upper, lower):
-        axes.grid(color="#e0e0e0", linewidth=0.6)
-        axes.set_axisbelow(True)
-        axes.spines[["top", "right"]].set_visible(False)
+    tidy(upper)
+    tidy(lower)
     title = "Learning" if len(runs) == 1 else f"Learning: {len(runs)} runs"
     upper.set_title(title, fontsize=12, loc="left")
     return save(figure, file)
 
 
 def splits(source: Source, file: str | Path | None = None) -> Figure:
-    """Draw which feature was found at which step: a disc a split, the larger the surer.
+    """Draw a disc for each split, by feature and learning step. Larger discs have smaller p-values.
 
-    Parameters
-    ----------
-    source : dict, path, Run or Agent
-        With ``tree``.
-    file : str, Path or None
-        A PNG or an SVG.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    RunError
-        The source has no tree, or the file is neither PNG nor SVG.
+    Needs ``tree``.
     """
     report = need(reports(source)[0], "tree")
     found = [node for node in report["tree"]["nodes"] if "test" in node]
     if not found:
-        raise RunError("cannot be drawn: the tree has a single class")
+        raise RunError("the tree has a single class: there is no split to draw")
     found.sort(key=lambda node: node["split"])
     tests: dict[str, int] = {}
     for node in found:
@@ -120,9 +90,7 @@ def splits(source: Source, file: str | Path | None = None) -> Figure:
     axes.scatter(xs, ys, s=sizes, color=BLUE, alpha=0.75, edgecolors="white", linewidths=0.5)
     axes.set_yticks(range(len(tests)), list(tests), fontsize=9)
     axes.set_ylim(len(tests) - 0.4, -0.6)
-    axes.set_xlabel("learning step k (several splits of a step stand side by side)")
+    axes.set_xlabel("learning step k (splits of one step are side by side)")
     axes.set_title(f"{len(found)} splits, by feature", fontsize=12, loc="left")
-    axes.grid(axis="y", color="#e0e0e0", linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
+    tidy(axes, grid="y")
     return save(figure, file)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the pictures have in common: where they draw from, their colours, and how they are saved."""
+"""What all figures share: their source, colours, and how they are saved."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ ARROWS = {"up": (0, -1), "right": (1, 0), "down": (0, 1), "left": (-1, 0)}
 
 
 def reports(source: Source) -> list[dict[str, Any]]:
-    """Give the runs that a source has, as reports."""
+    """Return the runs of a source as reports."""
     if isinstance(source, str | Path):
         source = _report.read(source)
     if isinstance(source, Run):
@@ -41,7 +41,7 @@ def reports(source: Source) -> list[dict[str, Any]]:
 
 
 def _with_tables(report: dict[str, Any]) -> dict[str, Any]:
-    """Add the tables of a maze's cells to a report that lists them: that of the Tiled Gridworld."""
+    """Add tables of classes and actions to a report that lists cells (Tiled Gridworld)."""
     if "cell" not in report:
         return report
     classes, actions = ([[None] * len(row) for row in report["maze"]] for _ in range(2))
@@ -53,22 +53,12 @@ def _with_tables(report: dict[str, Any]) -> dict[str, Any]:
 
 
 def pictures_of(report: dict[str, Any], objects: _objects.Objects | None) -> _objects.Objects:
-    """Give the pictures of a report's objects.
-
-    Parameters
-    ----------
-    report : dict
-    objects : Objects or None
-        None: those of the folder that the report names, or rendered ones.
-
-    Returns
-    -------
-    Objects
+    """Return the given pictures, or those that the report names.
 
     Raises
     ------
     RunError
-        The report does not say where its pictures are from.
+        The report does not name its pictures.
     """
     if objects is not None:
         return objects
@@ -78,13 +68,13 @@ def pictures_of(report: dict[str, Any], objects: _objects.Objects | None) -> _ob
 
 
 def circle(axes: Any, x: float, y: float, radius: float, width: float) -> None:
-    """Draw a circle that is seen on light and on dark."""
+    """Draw a circle that is visible on light and on dark."""
     for colour, line in ((PAPER, 2.2 * width), (ORANGE, width)):
         axes.add_patch(Circle((x, y), radius, fill=False, color=colour, linewidth=line, zorder=4))
 
 
 def show(axes: Any, picture: npt.NDArray[np.uint8], x: float, y: float, side: float) -> float:
-    """Draw a picture into a square with the upper left corner (x, y); give the side of a pixel."""
+    """Draw a picture with its upper left corner at (x, y); return the size of a pixel."""
     height, width = picture.shape[:2]
     scale: float = side / max(height, width)
     extent = (x, x + width * scale, y + height * scale, y)
@@ -92,19 +82,26 @@ def show(axes: Any, picture: npt.NDArray[np.uint8], x: float, y: float, side: fl
     return scale
 
 
+def tidy(axes: Any, grid: str = "both") -> None:
+    """Draw a light grid and no frame above and to the right."""
+    axes.grid(axis=grid, color="#e0e0e0", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
 def need(report: dict[str, Any], *members: str) -> dict[str, Any]:
-    """Give the report, if it has these members."""
+    """Return the report if it has these members."""
     for member in members:
         if member not in report:
-            raise RunError(f"cannot be drawn: there is no {member} in it")
+            raise RunError(f"the report has no {member}")
     return report
 
 
 def save(figure: Figure, file: str | Path | None) -> Figure:
-    """Save a figure, if a file is named."""
+    """Save a figure if a file is named."""
     if file is not None:
         check_name(file)
-        # No date and fixed names within, so that the same run makes the same file.
+        # No date and fixed identifiers: the same run makes the same file.
         with mpl.rc_context({"svg.hashsalt": "rlvc", "svg.fonttype": "path"}):
             metadata = {"Date": None} if str(file).lower().endswith(".svg") else {}
             figure.savefig(file, dpi=150, bbox_inches="tight", facecolor=PAPER, metadata=metadata)
@@ -112,13 +109,13 @@ def save(figure: Figure, file: str | Path | None) -> Figure:
 
 
 def check_name(file: str | Path) -> None:
-    """Refuse a file that is neither PNG nor SVG."""
+    """Raise RunError unless the file is a .png or a .svg."""
     if Path(file).suffix.lower() not in (".png", ".svg"):
-        raise RunError(f"{file}: a picture is a .png or a .svg")
+        raise RunError(f"{file}: the file must be a .png or a .svg")
 
 
 def explained(name: str, report: dict[str, Any]) -> str:
-    """Give a test's name, in words if the report has them."""
+    """Return the name of a test, in words if the report has them."""
     names = report.get("names") or []
     match = re.fullmatch(r"bit (\d+)", name)
     if match and int(match[1]) < len(names):
@@ -128,6 +125,6 @@ def explained(name: str, report: dict[str, Any]) -> str:
         for axis in ("x", "y"):
             if int(match[1]) in percept[f"{axis}_bits"]:
                 place = percept[f"{axis}_bits"].index(int(match[1]))
-                return f"{name}: {axis} has {2**place}"
-        return f"{name}: noise"
+                return f"{name}: {2**place} of {axis}"
+        return f"{name}: distractor"
     return name

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The maze: its classes and policy (figures 3 and 4), its values, and what lies in its cells."""
+"""Mazes: classes and policy (figures 3 and 4), values, and the objects in the cells."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ from .drawing import (
 
 
 def write(axes: Any, x: float, y: float, text: str, size: float, colour: str = "black") -> None:
-    """Write into the middle of the cell at (x, y)."""
+    """Write in the middle of the cell (x, y)."""
     axes.text(
         x + 0.5, y + 0.5, text, ha="center", va="center", fontsize=size, color=colour, zorder=5
     )
 
 
 def board(axes: Any, rows: list[str], title: str) -> None:
-    """Draw walls, exits, and a frame."""
+    """Draw walls, exits and a frame."""
     width, height = len(rows[0]), len(rows)
     axes.set_title(title, fontsize=12, loc="left")
     axes.set_xlim(0, width)
@@ -58,7 +58,7 @@ def board(axes: Any, rows: list[str], title: str) -> None:
 
 
 def _free(rows: list[str], cells: list[list[Any]]) -> Iterator[tuple[int, int, Any]]:
-    """Give x, y and what a table says, of each free cell."""
+    """Yield x, y and the value of each free cell."""
     for y, row in enumerate(cells):
         for x, value in enumerate(row):
             if rows[y][x] == ".":
@@ -66,12 +66,12 @@ def _free(rows: list[str], cells: list[list[Any]]) -> Iterator[tuple[int, int, A
 
 
 def _fit(width: int, size: float) -> float:
-    """Give a size of type that fits into a cell of a maze of that width."""
+    """Return a font size that fits into a cell of a maze of this width."""
     return max(2.0, min(size, size * 12 / max(width, 1)))
 
 
 def _borders(axes: Any, cells: Any) -> None:
-    """Draw lines between neighbours of different classes."""
+    """Draw lines between neighbouring cells of different classes."""
     height, width = len(cells), len(cells[0])
     for y in range(height):
         for x in range(width):
@@ -91,7 +91,7 @@ def _grid(axes: Any, rows: list[str]) -> None:
 
 
 def _pale(fraction: float) -> tuple[float, float, float]:
-    """Give a light colour of the cividis map, on which dark type is legible."""
+    """Return a light colour of the cividis map, on which black text is legible."""
     red, green, blue, _ = mpl.colormaps["cividis"](0.35 + 0.65 * fraction)
     return tuple(0.45 + 0.55 * part for part in (red, green, blue))  # type: ignore[return-value]
 
@@ -133,30 +133,21 @@ def _policy(axes: Any, report: dict[str, Any]) -> None:
     _grid(axes, rows)
 
 
+def _two_boards(rows: list[str], least: float, cell: float, most: float) -> tuple[Any, Any, Any]:
+    """A figure with two mazes side by side, each `cell` inches a cell, within the limits."""
+    width, height = len(rows[0]), len(rows)
+    side = min(most, max(least, cell * width))
+    figure = Figure(figsize=(2 * side + 0.4, side * height / width + 0.6), layout="constrained")
+    return (figure, *figure.subplots(1, 2))
+
+
 def maze(source: Source, file: str | Path | None = None) -> Figure:
-    """Draw a maze with the classes that the tree tells apart and the learnt policy (figures 3, 4).
+    """Draw a maze twice: with the class of each cell, and with the learnt actions (figures 3 and 4).
 
-    Parameters
-    ----------
-    source : dict, path, Run or Agent
-        With ``maze``, ``cell_classes`` and ``cell_actions``.
-    file : str, Path or None
-        A PNG or an SVG.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    RunError
-        The source has no maze, or the file is neither PNG nor SVG.
+    Needs ``maze``, ``classes``, ``cell_classes`` and ``cell_actions``.
     """
     report = need(reports(source)[0], "maze", "cell_classes", "cell_actions", "classes")
-    width, height = len(report["maze"][0]), len(report["maze"])
-    side = min(7.0, max(4.0, 0.62 * width))
-    figure = Figure(figsize=(2 * side + 0.4, side * height / width + 0.6), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, left, right = _two_boards(report["maze"], 4.0, 0.62, 7.0)
     _classes(left, report)
     _policy(right, report)
     return save(figure, file)
@@ -165,21 +156,7 @@ def maze(source: Source, file: str | Path | None = None) -> Figure:
 def values(source: Source, file: str | Path | None = None) -> Figure:
     """Draw the value of each cell of a maze as a heat map, in units of return.
 
-    Parameters
-    ----------
-    source : dict, path, Run or Agent
-        With ``maze``, ``cell_classes`` and ``tree``.
-    file : str, Path or None
-        A PNG or an SVG.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    RunError
-        The source has no maze, or the file is neither PNG nor SVG.
+    Needs ``maze``, ``cell_classes`` and ``tree``.
     """
     report = need(reports(source)[0], "maze", "cell_classes", "tree")
     rows = report["maze"]
@@ -201,49 +178,27 @@ def values(source: Source, file: str | Path | None = None) -> Figure:
             if not math.isnan(value):
                 colour = "black" if value > middle else "white"
                 write(axes, x, y, f"{value:.3g}", 9, colour)
-    figure.colorbar(shown, ax=axes, label="value, in units of return", shrink=0.9)
+    figure.colorbar(shown, ax=axes, label="value (units of return)", shrink=0.9)
     return save(figure, file)
 
 
 def tiles(source: Source, file: str | Path | None = None, objects: Objects | None = None) -> Figure:
-    """Draw the Tiled Gridworld: the objects, their interest points circled, and the classes (figure 4).
+    """Draw the Tiled Gridworld twice: its objects and interest points, and its classes (figure 4).
 
-    Parameters
-    ----------
-    source : dict or path
-        With ``maze``, ``cell`` and ``objects``: what ``run_gridworld tiled --json`` wrote, or
-        :func:`rlvc.report.make` made of a run and its environment.
-    file : str, Path or None
-        A PNG or an SVG.
-    objects : rlvc.objects.Objects or None
-        The pictures: an environment's ``objects``. None: those of the folder that the report names, or
-        rendered ones.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    RunError
-        The source has no objects, or the file is neither PNG nor SVG.
-    ImportError
-        The pictures are to be read, and the package has no vision module.
+    Needs ``maze``, ``classes``, ``cell`` and ``objects``.
     """
     report = need(reports(source)[0], "maze", "cell", "objects", "classes")
     found = pictures_of(report, objects)
     rows = report["maze"]
     width, height = len(rows[0]), len(rows)
-    side = min(11.0, max(4.0, 1.15 * width))
-    figure = Figure(figsize=(2 * side + 0.4, side * height / width + 0.6), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    board(left, rows, "Objects, their interest points circled")
+    figure, left, right = _two_boards(rows, 4.0, 1.15, 11.0)
+    board(left, rows, "Objects and their interest points")
     for cell in report["cell"]:
         x, y, told = cell["x"], cell["y"], report["objects"][cell["object"]]
         scale = show(left, found.view(cell["object"], told["angle"]), x + 0.03, y + 0.03, 0.94)
         for point in told["points"]:
             place = (x + 0.03 + scale * (point[0] + 0.5), y + 0.03 + scale * (point[1] + 0.5))
-            circle(left, *place, 0.035, 0.6 * side / width)
+            circle(left, *place, 0.035, 0.6 * min(1.15, 11.0 / width))
     left.set_xlim(0, width)
     left.set_ylim(height, 0)
     _classes(right, report)

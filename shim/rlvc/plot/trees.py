@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tree, its tests in words (:func:`tree`) or as what they look for (:func:`features`, figure 5)."""
+"""The tree: its tests as text (:func:`tree`), or as pictures (:func:`features`, figure 5)."""
 
 from __future__ import annotations
 
@@ -35,23 +35,10 @@ def _action(report: dict[str, Any], action: int) -> str:
 
 
 def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
-    """Draw the tree: tests as boxes, classes with their actions and values as rounded ones.
+    """Draw the tree: a box for each test, a rounded box for each class with its action and value.
 
-    Parameters
-    ----------
-    source : dict, path, Run or Agent
-        With ``tree``.
-    file : str, Path or None
-        A PNG or an SVG; to make it needs Graphviz's program ``dot``.
-
-    Returns
-    -------
-    graphviz.Digraph
-
-    Raises
-    ------
-    RunError
-        The source has no tree, the file is neither PNG nor SVG, or there is no ``dot``.
+    Needs ``tree``. Saving it needs the program ``dot`` of Graphviz; without it this raises
+    :class:`~rlvc.errors.RunError`.
     """
     try:
         import graphviz
@@ -72,7 +59,7 @@ def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
     for node in nodes:
         name = str(node["node"])
         if "test" in node:
-            graph.node(name, f"{explained(node['test'], report)} ?", color=BLUE, penwidth="1.4")
+            graph.node(name, f"{explained(node['test'], report)}?", color=BLUE, penwidth="1.4")
             graph.edge(name, str(node["absent"]), label="no", style="dashed")
             graph.edge(name, str(node["present"]), label="yes")
         else:
@@ -85,13 +72,13 @@ def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
             picture = graph.pipe(format=Path(file).suffix.lower()[1:])
         except graphviz.ExecutableNotFound:
             raise RunError(
-                "a picture of a tree needs Graphviz: on Debian, apt-get install graphviz"
+                "saving a tree needs the program dot: on Debian, apt-get install graphviz"
             ) from None
         Path(file).write_bytes(picture)
     return graph
 
 
-_LABEL = 0.8  # inches that a class's label takes
+_LABEL = 0.8  # inches: width of a class's label
 
 
 class _Place(NamedTuple):
@@ -101,9 +88,9 @@ class _Place(NamedTuple):
 
 
 def _places(nodes: list[dict[str, Any]]) -> list[_Place]:
-    """Lay a tree out: what lacks a feature stands below its test, what has it to the right.
+    """Lay a tree out: percepts without the feature go down, those with it go right.
 
-    Each leaf ends a row, and each test begins one or stands in that of the test that leads to it.
+    Each leaf ends a row. A test begins a row, or is in the row of the test above it.
     """
     by_number = {node["node"]: node for node in nodes}
     places, row = [], 0
@@ -120,7 +107,7 @@ def _places(nodes: list[dict[str, Any]]) -> list[_Place]:
 
 
 class _Drawing:
-    """The drawing of a tree of pictures. Lengths are in inches, from the upper left corner."""
+    """The drawing of a tree of pictures. Lengths are in inches from the upper left corner."""
 
     def __init__(self, report: dict[str, Any], objects: Objects) -> None:
         self.report, self.objects = report, objects
@@ -145,7 +132,7 @@ class _Drawing:
         self.axes = self.figure.add_axes((0, 0, 1, 1))
         self.axes.set_axis_off()
         width, height = self.figure.get_size_inches()
-        self.axes.text(0.15, 0.3, "Tests, what they look for circled", fontsize=12, va="center")
+        self.axes.text(0.15, 0.3, "Tests: the circled feature is looked for", fontsize=12, va="center")
         for place in self.places:
             self.test(place) if "test" in place.node else self.leaf(place)
         self.axes.set_xlim(0, width)
@@ -161,7 +148,7 @@ class _Drawing:
         return self.members.get(node["class"], [])[:6]
 
     def test(self, place: _Place) -> None:
-        """Draw a picture with its point circled, and the ways on."""
+        """Draw a test: the picture with its point circled, and the arrows to its children."""
         x, y, side = self.left(place), self.top(place), self.side
         test = self.tests[place.node["test"]]
         if test["object"] is None:
@@ -184,7 +171,7 @@ class _Drawing:
         self.axes.annotate("", xy=end, xytext=start, arrowprops=arrow, zorder=1)
 
     def leaf(self, place: _Place) -> None:
-        """Say which class it is, what it does, and which objects are of it."""
+        """Draw a class: its number, its action and its objects."""
         x, y, node = self.left(place), self.top(place), place.node
         label = f"class {node['class']}\n{_action(self.report, node['action'])}"
         frame = {"boxstyle": "round,pad=0.3", "facecolor": "#fbf3d9", "edgecolor": GREY}
@@ -200,32 +187,10 @@ class _Drawing:
 def features(
     source: Source, file: str | Path | None = None, objects: Objects | None = None
 ) -> Figure:
-    """Draw the tree of an agent that sees: each test as the picture with its point circled (figure 5).
+    """Draw the tree of an agent on pictures: each test is a picture with its point circled (figure 5).
 
-    What lacks a test's feature stands below it, what has it to the right. Beside each class are the
-    objects in it, six at most.
-
-    Parameters
-    ----------
-    source : dict or path
-        With ``tree``, ``tests``, ``cell`` and ``objects``: what ``run_gridworld tiled --json`` wrote, or
-        :func:`rlvc.report.make` made of a run and its environment.
-    file : str, Path or None
-        A PNG or an SVG.
-    objects : rlvc.objects.Objects or None
-        The pictures: an environment's ``objects``. None: those of the folder that the report names, or
-        rendered ones.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    RunError
-        The source has no tests of pictures, or the file is neither PNG nor SVG.
-    ImportError
-        The pictures are to be read, and the package has no vision module.
+    Pictures without the feature go down, those with it go right. Beside each class are up to six of its
+    objects. Needs ``tree``, ``tests``, ``cell`` and ``objects``.
     """
     report = need(reports(source)[0], "tests", "tree", "cell", "objects")
     return save(_Drawing(report, pictures_of(report, objects)).figure, file)
