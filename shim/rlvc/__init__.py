@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Reinforcement learning of classes: a small, readable decision tree, learnt from rewards alone.
+"""Reinforcement learning of classes: learns a small, readable decision tree from rewards alone.
 
-The method is *Reinforcement Learning of Visual Classes* (S. Jodogne and J. H. Piater, 2004); what is
-said to be in a section is in that of "Interactive selection of visual features through reinforcement
-learning".
+The method is *Reinforcement Learning of Visual Classes* (S. Jodogne and J. H. Piater, 2004). Section
+numbers in the documentation are those of "Interactive selection of visual features through
+reinforcement learning".
 """
 
 # The rooms of the package, from the ground up. A room is a folder or a file; it imports only rooms

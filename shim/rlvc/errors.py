@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What can go wrong, one exception for each cause.
+"""The exceptions of the package, one for each cause.
 
-Every exception of the package is an :class:`Error`, and beside it the built-in exception that fits,
-so that ``except ValueError`` works as one expects. An agent that raised is as it was before the call,
-unless the text of the method says otherwise.
+Each is an :class:`Error` and also the built-in exception that fits best, so that ``except ValueError``
+works as expected. When a method of an agent raises, the agent is unchanged, unless the documentation
+of the method says otherwise.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ class Error(Exception):
 
 
 class LibraryError(Error, ImportError):
-    """The package's library is missing, of another version, or laid out in another way."""
+    """The C library is missing, has another version, or another layout of its structs."""
 
 
 class ConfigError(Error, ValueError):
@@ -22,7 +22,7 @@ class ConfigError(Error, ValueError):
 
 
 class BlockError(Error, MemoryError):
-    """There is no room for the agent, or its block of memory is damaged (``RLVC_E_MEMORY``)."""
+    """There is not enough memory, or the agent's memory is corrupt (``RLVC_E_MEMORY``)."""
 
 
 class OrderError(Error, RuntimeError):
@@ -34,64 +34,64 @@ class RangeError(Error, ValueError):
 
 
 class RewardError(Error, ValueError):
-    """A reward is no finite number within +-1e12 (``RLVC_E_REWARD``)."""
+    """A reward is not a finite number in [-1e12, 1e12] (``RLVC_E_REWARD``)."""
 
 
 class BusyError(Error, RuntimeError):
-    """The ring is full of what is being learnt from: finish the step (``RLVC_E_BUSY``)."""
+    """The replay buffer is full and in use by a learning step: finish it (``RLVC_E_BUSY``)."""
 
 
 class ReenteredError(Error, RuntimeError):
-    """A callback, or another thread, used an agent that was in a call (``RLVC_E_REENTERED``)."""
+    """A callback or another thread used an agent during a call (``RLVC_E_REENTERED``)."""
 
 
 class ClosedError(Error, RuntimeError):
-    """The agent was closed: its memory is gone."""
+    """The agent was closed."""
 
 
 class CallbackError(Error, RuntimeError):
-    """A callback failed without saying why (``RLVC_E_CALLBACK``)."""
+    """A callback failed without an exception (``RLVC_E_CALLBACK``)."""
 
 
 class StoreError(Error, OSError):
-    """What a snapshot is kept in cannot be read or written (``RLVC_E_STORE``)."""
+    """The store of a snapshot cannot be read or written (``RLVC_E_STORE``)."""
 
 
 class SnapshotError(Error, ValueError):
-    """A snapshot is missing, damaged, of another version, or of another config or domain."""
+    """A snapshot is missing, corrupt, or has another version, config or domain."""
 
 
 class DomainError(Error, TypeError):
-    """A method of one's own domain returned something else than it must."""
+    """A method of a user-defined domain returned a wrong type or value."""
 
 
 class ArrayError(Error, ValueError):
-    """An array is of the wrong dtype or shape, not C-contiguous, or read-only where it is written."""
+    """An array has the wrong dtype or shape, is not C-contiguous, or is read-only."""
 
 
 class PerceptError(ArrayError):
-    """A percept is of the wrong size, dtype or shape."""
+    """A percept has the wrong size, dtype or shape."""
 
 
 class PictureError(ArrayError):
-    """A picture is of the wrong dtype, shape or size, or the pictures of a folder cannot be used."""
+    """A picture has the wrong dtype, shape or size, or a folder of pictures cannot be used."""
 
 
 class MetricError(Error, ValueError):
-    """A metric's text is damaged, it belongs to other vectors, is missing, or cannot be fitted."""
+    """A metric is missing, corrupt, made for other vectors, or cannot be fitted."""
 
 
 class SpaceError(Error, TypeError):
-    """A Gymnasium space that cannot be encoded into bits, or has no finite set of actions."""
+    """Observations of this space cannot be encoded, or its actions are not finite."""
 
 
 class LogError(Error, ValueError):
-    """A log is damaged; the text says in which file, where, and what is wrong."""
+    """A log is damaged. The message names the file, the place and the fault."""
 
 
 class MazeError(Error, ValueError):
-    """The text of a maze is not one; the text says in which line and column, and why."""
+    """The text of a maze is invalid. The message names the line, the column and the fault."""
 
 
 class RunError(Error, ValueError):
-    """A run's JSON is damaged, or is none."""
+    """The report of a run is invalid, or has no data for this figure."""

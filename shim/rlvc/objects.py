@@ -99,7 +99,7 @@ def find(
     RangeError
         An angle or ``wanted`` is out of range.
     """
-    library = _native.load_seeing("rlvc-objects", _native.OBJECTS)
+    library = _native.load_optional("rlvc-objects", _native.OBJECTS)
     chosen = list(dict.fromkeys(int(angle) for angle in angles))
     if not chosen or not all(0 <= angle < 360 for angle in chosen):
         raise RangeError(f"angles: {list(angles)} are not in [0, 360)")

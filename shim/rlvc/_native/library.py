@@ -22,7 +22,7 @@ _PREFIX = "" if sys.platform == "win32" else "lib"
 
 
 def library_path() -> Path:
-    """Where the library lies: inside the package, or where ``RLVC_PYTHON_LIBRARY`` says."""
+    """Return the library's path: in the package, or the value of ``RLVC_PYTHON_LIBRARY``."""
     named = os.environ.get("RLVC_PYTHON_LIBRARY")
     if named:
         return Path(named)
@@ -32,7 +32,7 @@ def library_path() -> Path:
 def _load(path: Path, kind: type[c.CDLL]) -> Any:
     if not path.exists():
         raise LibraryError(
-            f"{path}: no such library. It is made when the package is installed: pip install ."
+            f"{path}: no such library. Installing the package builds it: pip install ."
         )
     try:
         return _declare(kind(str(path)), CORE)
@@ -48,15 +48,15 @@ def _declare(library: Any, functions: Functions) -> Any:
     return library
 
 
-def load_seeing(name: str, functions: Functions) -> Any:
-    """Load a library that is there where OpenCV is.
+def load_optional(name: str, functions: Functions) -> Any:
+    """Load one of the libraries that need OpenCV.
 
     Parameters
     ----------
     name : str
-        Such as ``rlvc-vision``.
+        ``rlvc-vision`` or ``rlvc-objects``.
     functions : dict
-        What is in it.
+        Its functions.
 
     Returns
     -------
@@ -65,45 +65,46 @@ def load_seeing(name: str, functions: Functions) -> Any:
     Raises
     ------
     ImportError
-        The package was made without it, or OpenCV is not here; the text says what to install.
+        The package was built without the library, or OpenCV is missing. The message says what to
+        install.
     """
     path = PATH.with_name(f"{_PREFIX}{name}{_SUFFIX}")
     if not path.exists():
         raise ImportError(
-            f"pictures need {path.name}, which is not in this installation of rlvc ({path.parent}). It "
-            "is made where OpenCV's headers are found: on Debian 12, apt-get install libopencv-dev "
-            "nlohmann-json3-dev, then install rlvc from its sources again: "
+            f"pictures need {path.name}, which this installation of rlvc lacks ({path.parent}): it was "
+            "built without OpenCV. On Debian 12: apt-get install libopencv-dev nlohmann-json3-dev, then "
+            "install rlvc from source again: "
             f"{sys.executable} -m pip install ."
         )
     try:
         return _declare(c.CDLL(str(path)), functions)
     except (OSError, AttributeError) as error:
         raise ImportError(
-            f"{path}: cannot be loaded: {error}. It needs the OpenCV that it was made with: on Debian "
-            "12, apt-get install libopencv-dev"
+            f"{path}: cannot be loaded: {error}. It needs the version of OpenCV that it was built "
+            "with. On Debian 12: apt-get install libopencv-dev"
         ) from error
 
 
 def check_version(found: str, path: Path) -> None:
-    """Refuses a library of another version than the package's."""
+    """Raise LibraryError if the library and the package have different versions."""
     if found != __version__:
-        raise LibraryError(f"{path}: is of version {found}, and the package of {__version__}")
+        raise LibraryError(f"{path}: has version {found}, but the package has version {__version__}")
 
 
 def check_layout(entries: dict[str, int], path: Path) -> None:
-    """Refuses a library whose structs are laid out otherwise than those above."""
+    """Raise LibraryError if a struct of the library has another layout than in ``bindings``."""
     for name, struct in STRUCTS.items():
         expected = {name: c.sizeof(struct)}
         for field in struct._fields_:
             expected[f"{name}.{field[0]}"] = getattr(struct, field[0]).offset
         for key, value in expected.items():
             if entries.get(key) != value:
-                raise LibraryError(f"{path}: {key} lies at {entries.get(key)}, expected {value}")
+                raise LibraryError(f"{path}: {key}: size or offset {entries.get(key)}, expected {value}")
     known = set(STRUCTS)
     for key in entries:
         owner, _, field_name = key.partition(".")
         if owner not in known or (field_name and not hasattr(STRUCTS[owner], field_name)):
-            raise LibraryError(f"{path}: {key} is not known here")
+            raise LibraryError(f"{path}: {key}: not declared in rlvc._native.bindings")
 
 
 def layout_of(library: Any) -> dict[str, int]:
@@ -133,5 +134,5 @@ call.rlvc_shim_python_init(
 
 
 def status_text(status: int) -> str:
-    """The library's own sentence for a status."""
+    """Return the library's description of a status."""
     return str(call.rlvc_status_text(status).decode())

@@ -19,12 +19,12 @@ _BOOL = np.dtype(np.bool_)
 
 
 class Bits(Domain):
-    """Percepts that are strings of bits; a feature is the number of a bit (section 6.1).
+    """Percepts of bits; a feature is the index of a bit (section 6.1).
 
     Parameters
     ----------
     bits : int
-        How many, [1, 1024].
+        Number of bits, [1, 1024].
 
     Raises
     ------
@@ -33,8 +33,8 @@ class Bits(Domain):
 
     Notes
     -----
-    A percept is given packed, as bytes or uint8 [ceil(bits / 8)] with bit i in bit i % 8 (0 the lowest)
-    of byte i // 8, or as bool [bits]. Source: ``core/include/rlvc/bits.h``.
+    A percept is bool [bits], or packed: bytes or uint8 [ceil(bits / 8)], with bit i in bit i % 8 of byte
+    i // 8 (bit 0 is the lowest). Source: ``core/include/rlvc/bits.h``.
     """
 
     def __init__(self, bits: int) -> None:
@@ -44,19 +44,19 @@ class Bits(Domain):
         self.bits = bits
 
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
-        """Whether the bit of that number is 1."""
+        """Whether the bit is 1."""
         return bool(percept[int(feature) // 8] >> (int(feature) % 8) & 1)
 
     def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Every bit, in order."""
+        """Return all bits, in order."""
         return np.arange(self.bits, dtype=np.uint16)
 
     def name(self, feature: Any) -> str:
-        """``bit`` and the number."""
+        """Return ``bit`` and the index."""
         return f"bit {int(feature)}"
 
     def pack(self, percept: Percept) -> bytes:
-        """Like :meth:`Domain.pack`; also packs bool [bits]."""
+        """Like :meth:`Domain.pack`, and also accepts bool [bits]."""
         if type(percept) is np.ndarray:
             if percept.dtype is _UINT8 and percept.shape == self.percept_shape:
                 return percept.tobytes()
@@ -65,17 +65,17 @@ class Bits(Domain):
         return super().pack(percept)
 
     def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Like :meth:`Domain.pack_many`; also packs bool [n, bits]."""
+        """Like :meth:`Domain.pack_many`, and also accepts bool [n, bits]."""
         if isinstance(percepts, np.ndarray) and percepts.dtype == _BOOL:
             if percepts.ndim != 2 or percepts.shape[1] != self.bits:
                 raise PerceptError(
-                    f"percepts of bool{list(percepts.shape)}, not ['n', {self.bits}]"
+                    f"percepts are bool{list(percepts.shape)}, expected bool[n, {self.bits}]"
                 )
             return np.packbits(percepts, axis=1, bitorder="little")
         return super().pack_many(percepts)
 
     def native(self, guard: Guard) -> _native.Domain:
-        """The library's own domain, which calls no Python."""
+        """Return the library's domain, which calls no Python."""
         native = _native.Domain()
         _native.call.rlvc_bits_domain(self.bits, ctypes.byref(native))
         return native

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the domains that are implemented in C have in common."""
+"""What the domains of the library have in common."""
 
 from __future__ import annotations
 
@@ -10,30 +10,48 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..errors import PerceptError
+from ..errors import ConfigError, PerceptError
+from .callbacks import Guard
 from .domain import Domain
 
 
 class BuiltinDomain(Domain):
-    """A ready-made domain whose callbacks are the library's, with parameters of its own."""
+    """A domain of the library: its callbacks are in C."""
 
     parameters: tuple[Any, ...]
-    _native: _native.Domain
+    _function: str  # of the library: makes the domain from its parameters
+    _made: ctypes.Structure  # the parameters as a C struct
+    _domain: _native.Domain
+
+    def _build(self, made: ctypes.Structure) -> None:
+        """Make the C domain, which this object keeps alive."""
+        self._made = made
+        self._domain = _native.Domain()
+        function = getattr(_native.call, self._function)
+        status = function(ctypes.byref(made), ctypes.byref(self._domain))
+        if status != _native.OK:
+            name = type(self).__name__.lower()
+            raise ConfigError(f"{name}: {_native.status_text(status)}")
+
+    def native(self, guard: Guard) -> _native.Domain:
+        """Return the library's domain, which calls no Python."""
+        self._domain._keeps = self._made
+        return self._domain
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the parameters."""
+        """Pickle the parameters only."""
         return type(self), self.parameters
 
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
-        """Whether a percept exhibits a feature, as the library says."""
+        """Whether a percept exhibits a feature."""
         present = ctypes.c_uint8()
         record = np.ascontiguousarray(feature).tobytes()
-        if self._native.exhibits(self._native.ctx, self.pack(percept), record, present):
-            raise PerceptError("a percept that is none of the domain")
+        if self._domain.exhibits(self._domain.ctx, self.pack(percept), record, present):
+            raise PerceptError("the percept is not valid in this domain")
         return bool(present.value)
 
     def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """List the features that the library looks at first for such a class."""
+        """Return the first candidates of the library's search for a class with these percepts."""
         records = self.pack_many(percepts)
         pairs = np.zeros((len(records), 2), np.uint32)
         pairs[:, 1] = np.arange(len(records))
@@ -42,16 +60,16 @@ class BuiltinDomain(Domain):
         )
         found = np.zeros(_native.DETECT_FEATURES, self.feature_dtype)
         written = ctypes.c_uint32()
-        if self._native.candidates(
-            self._native.ctx, samples, 0, len(found), found.ctypes.data, written
+        if self._domain.candidates(
+            self._domain.ctx, samples, 0, len(found), found.ctypes.data, written
         ):
-            raise PerceptError("a percept that is none of the domain")
+            raise PerceptError("the percept is not valid in this domain")
         return found[: written.value]
 
     def name(self, feature: Any) -> str:
-        """Name a feature as the library does."""
+        """Return the name of a feature."""
         text = ctypes.create_string_buffer(_native.NAME_BYTES)
         record = np.ascontiguousarray(feature).tobytes()
         address = ctypes.cast(text, ctypes.c_void_p)
-        self._native.name(self._native.ctx, record, address, _native.NAME_BYTES)
+        self._domain.name(self._domain.ctx, record, address, _native.NAME_BYTES)
         return text.value.decode()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The C callbacks of a domain that is written in Python."""
+"""The C callbacks of a domain written in Python."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Callbacks:
         return native
 
     def percepts(self, records: bytes, count: int) -> npt.NDArray[Any]:
-        """Give records as an array of percepts."""
+        """Return records as an array of percepts."""
         flat = np.frombuffer(records, self.percept_dtype)
         return flat.reshape(count, *self.percept_shape)
 
@@ -89,7 +89,7 @@ class Callbacks:
         )
 
     def feature(self, address: int) -> Any:
-        """Give the feature whose record is there."""
+        """Return the feature at an address."""
         return self.domain.feature(ctypes.string_at(address, self.feature_bytes))
 
     def exhibits(self, percept: int, feature: int) -> int:
@@ -97,7 +97,7 @@ class Callbacks:
         one = self.percepts(ctypes.string_at(percept, self.percept_bytes), 1)[0]
         answer = self.domain.exhibits(one, self.feature(feature))
         if not isinstance(answer, bool | np.bool_):
-            raise DomainError(f"exhibits() returned {answer!r:.80}, not a bool")
+            raise DomainError(f"exhibits() returned {answer!r:.80}, expected a bool")
         return int(answer)
 
     def name(self, feature: int, text: int, room: int) -> int:
@@ -124,8 +124,8 @@ class Callbacks:
         if not isinstance(features, np.ndarray) or features.ndim != 1 or features.dtype != wanted:
             kind = getattr(features, "dtype", type(features).__name__)
             raise DomainError(
-                f"candidates() returned {kind}{list(getattr(features, 'shape', []))}, not an array "
-                f"{wanted}['features']"
+                f"candidates() returned {kind}{list(getattr(features, 'shape', []))}, expected "
+                f"{wanted}[n]"
             )
         return features.tobytes()
 
@@ -141,7 +141,7 @@ class Callbacks:
         samples = _native.Samples.from_address(address)
         answer = domain.detect(self.gather(samples, first, n), offered)
         if not isinstance(answer, np.ndarray) or answer.dtype != np.bool_ or answer.shape != (n, m):
-            raise DomainError(f"detect() returned {answer!r:.80}, not an array bool[{n}, {m}]")
+            raise DomainError(f"detect() returned {answer!r:.80}, expected bool[{n}, {m}]")
         words = np.zeros((m, _native.DETECT_SAMPLES // 8), np.uint8)
         packed = np.packbits(answer.T, axis=1, bitorder="little")
         words[:, : packed.shape[1]] = packed
@@ -165,28 +165,28 @@ class Callbacks:
             )
         except (AttributeError, TypeError, ValueError) as error:
             raise DomainError(
-                f"oracle() returned {answer!r:.80}, not (feature, considered) or None"
+                f"oracle() returned {answer!r:.80}, expected (feature, considered) or None"
             ) from error
         if len(record) != self.feature_bytes or not 1 <= count < 2**32:
-            raise DomainError(f"oracle() returned {answer!r:.80}: considered is at least 1")
+            raise DomainError(f"oracle() returned {answer!r:.80}: considered must be in [1, 2**32)")
         ctypes.memmove(feature, record, len(record))
         return count
 
 
 def checked_name(name: object, room: int = _native.NAME_BYTES) -> bytes:
-    """Encode a feature's name.
+    """Encode the name of a feature.
 
     Raises
     ------
     DomainError
-        It is no text, too long, or has a character that does not fit into JSON and DOT as it is.
+        It is not a str, is too long, or has a character that JSON or DOT would have to escape.
     """
     if not isinstance(name, str):
-        raise DomainError(f"name() returned {name!r:.80}, not a str")
+        raise DomainError(f"name() returned {name!r:.80}, expected a str")
     encoded = name.encode(errors="replace")
     if len(encoded) >= room or any(ord(sign) < 32 or sign in '"\\\x7f' for sign in name):
         raise DomainError(
-            f"name() returned {name!r:.80}: at most {room - 1} bytes, without quote, backslash or "
-            "control character"
+            f"name() returned {name!r:.80}: at most {room - 1} bytes are allowed, and no quote, "
+            "backslash or control character"
         )
     return encoded

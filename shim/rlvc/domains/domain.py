@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The world as the learner sees it (section 5): percepts, features, detector and refining oracle."""
+"""The domain (section 5): percepts, features, feature detector and refining oracle."""
 
 from __future__ import annotations
 
@@ -18,31 +18,32 @@ Percept: TypeAlias = "bytes | npt.NDArray[Any]"
 
 
 class Domain(abc.ABC):
-    """A world of one's own: the kind of percepts and features, and three methods.
+    """Base class of user-defined domains: the types of percepts and features, and three methods.
 
     Parameters
     ----------
     percept_dtype : dtype
-        Of a percept's elements.
+        Type of a percept's elements.
     percept_shape : tuple of int
-        Of a percept; () for a single element.
+        Shape of a percept; () for a single element.
     feature_dtype : dtype
-        Of a feature: a number, or a structured type.
+        Type of a feature: a number, or a structured type.
     features_max : int
-        How many candidates there can be for one class, or 0 if that is not known; it only sizes
-        memory.
+        The largest number of candidates for one class; 0: unknown. It only affects the size of the
+        agent's memory.
 
     Notes
     -----
-    A domain must not use the agent that calls it, and must give the same answer for the same
-    arguments. An exception that one of its methods raises comes out of the agent's call that led to
-    it. Besides the three methods, a domain may have
+    The methods must not use the agent that calls them, and must return the same result for the same
+    arguments. If one raises, the agent's method that called it raises the same exception. Two more
+    methods are optional:
 
-    - ``detect(percepts, features)``, with percepts [n, *percept_shape] and features [m]: a boolean
-      array [n, m], to save calls of ``exhibits``;
-    - ``oracle(percepts, below)``, with percepts [n, *percept_shape] by ascending target: the feature
-      that best explains the partition into percepts[:below] and percepts[below:], and among how many
-      it chose; or None. It replaces the search over ``candidates``.
+    - ``detect(percepts, features)`` replaces calls of ``exhibits``. It takes percepts
+      [n, *percept_shape] and features [m], and returns bool [n, m].
+    - ``oracle(percepts, below)`` replaces the search over ``candidates``. It takes percepts
+      [n, *percept_shape], sorted by ascending target, and returns the feature that best explains the
+      partition into percepts[:below] and percepts[below:], and the number of features it compared; or
+      None if no feature does.
 
     Source: ``core/include/rlvc/domain.h``.
     """
@@ -63,16 +64,16 @@ class Domain(abc.ABC):
         self.features_max = features_max
         if self.percept_dtype.hasobject or self.feature_dtype.hasobject:
             raise ConfigError(
-                "a percept and a feature are values: no Python objects in their dtype"
+                "the dtypes of percepts and features must not contain Python objects"
             )
         self.percept_bytes = self.percept_dtype.itemsize * int(
             np.prod(self.percept_shape, dtype=int)
         )
         self.feature_bytes = self.feature_dtype.itemsize
         if not 1 <= self.percept_bytes <= 2**20:
-            raise ConfigError(f"a percept has {self.percept_bytes} bytes, not 1 to 2^20")
+            raise ConfigError(f"a percept has {self.percept_bytes} bytes, allowed are [1, 2**20]")
         if not 1 <= self.feature_bytes <= 2**16:
-            raise ConfigError(f"a feature has {self.feature_bytes} bytes, not 1 to 2^16")
+            raise ConfigError(f"a feature has {self.feature_bytes} bytes, allowed are [1, 2**16]")
 
     @abc.abstractmethod
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
@@ -91,22 +92,22 @@ class Domain(abc.ABC):
 
     @abc.abstractmethod
     def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """List the features among which a class's split is searched (section 4.2.3).
+        """List the features among which the split of a class is searched (section 4.2.3).
 
         Parameters
         ----------
         percepts : ndarray, [n, *percept_shape]
-            Those of the class and an action, by ascending target.
+            The percepts of the class and one action, by ascending target.
 
         Returns
         -------
         ndarray, [features], of feature_dtype
-            The earlier of two that score alike wins.
+            If two features have the same score, the earlier one is chosen.
         """
 
     @abc.abstractmethod
     def name(self, feature: Any) -> str:
-        """Name a feature, in at most 63 bytes without quote, backslash or control character.
+        """Return the name of a feature: at most 63 bytes, no quote, backslash or control character.
 
         Parameters
         ----------
@@ -118,7 +119,7 @@ class Domain(abc.ABC):
         """
 
     def pack(self, percept: Percept) -> bytes:
-        """Give the record of a percept.
+        """Return a percept as bytes.
 
         Parameters
         ----------
@@ -131,17 +132,17 @@ class Domain(abc.ABC):
         Raises
         ------
         PerceptError
-            It is of another size, dtype or shape.
+            The percept has the wrong size, dtype or shape.
         """
         if isinstance(percept, bytes):
             if len(percept) != self.percept_bytes:
-                raise PerceptError(f"a percept of {len(percept)} bytes, not {self.percept_bytes}")
+                raise PerceptError(f"a percept has {len(percept)} bytes, expected {self.percept_bytes}")
             return percept
         if not isinstance(percept, np.ndarray | np.generic):
-            raise PerceptError(f"a percept is bytes or an array, not {type(percept).__name__}")
+            raise PerceptError(f"a percept must be bytes or an array, not {type(percept).__name__}")
         if percept.dtype != self.percept_dtype or percept.shape != self.percept_shape:
             raise PerceptError(
-                f"a percept of {percept.dtype}{list(percept.shape)}, not "
+                f"a percept is {percept.dtype}{list(percept.shape)}, expected "
                 f"{self.percept_dtype}{list(self.percept_shape)}"
             )
         return percept.tobytes()
@@ -156,32 +157,32 @@ class Domain(abc.ABC):
         Returns
         -------
         ndarray
-            Itself, or another one whose memory holds the n records.
+            The same array, or a packed copy.
 
         Raises
         ------
         PerceptError
-            It is of another dtype or shape, or not C-contiguous.
+            The array has the wrong dtype or shape, or is not C-contiguous.
         """
         if not isinstance(percepts, np.ndarray):
-            raise PerceptError(f"percepts are an array, not {type(percepts).__name__}")
+            raise PerceptError(f"percepts must be an array, not {type(percepts).__name__}")
         if percepts.dtype != self.percept_dtype or percepts.shape[1:] != self.percept_shape:
             raise PerceptError(
-                f"percepts of {percepts.dtype}{list(percepts.shape)}, not "
+                f"percepts are {percepts.dtype}{list(percepts.shape)}, expected "
                 f"{self.percept_dtype}{['n', *self.percept_shape]}"
             )
         if not percepts.flags.c_contiguous:
             raise PerceptError(
-                "percepts are not C-contiguous: numpy.ascontiguousarray makes them so"
+                "percepts are not C-contiguous: use numpy.ascontiguousarray"
             )
         return percepts
 
     def is_one(self, percept: Any) -> bool:
-        """Whether this is one percept rather than an array of them."""
+        """Whether this is a single percept, not an array of percepts."""
         return isinstance(percept, bytes) or np.ndim(percept) == len(self.percept_shape)
 
     def feature(self, record: bytes) -> Any:
-        """Give the feature whose record this is."""
+        """Return the feature with these bytes."""
         return np.frombuffer(record, self.feature_dtype)[0]
 
     def native(self, guard: Guard) -> _native.Domain:
@@ -190,7 +191,7 @@ class Domain(abc.ABC):
         Parameters
         ----------
         guard : Guard
-            Gets what the callbacks raise.
+            Receives the exceptions of the callbacks.
 
         Returns
         -------

@@ -22,7 +22,7 @@ from ..errors import (
     StoreError,
 )
 
-library = _native.load_seeing("rlvc-vision", _native.VISION)
+library = _native.load_optional("rlvc-vision", _native.VISION)
 
 _ERRORS: dict[int, type[Error]] = {
     -102: ConfigError,
