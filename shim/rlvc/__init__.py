@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Reinforcement learning of classes: learns a small, readable decision tree from rewards alone.
 
-The method is *Reinforcement Learning of Visual Classes* (S. Jodogne and J. H. Piater, 2004). Section
-numbers in the documentation are those of "Interactive selection of visual features through
+The method is *Reinforcement Learning of Visual Classes* (S. Jodogne and J. H. Piater, 2004).
+Section numbers in the documentation are those of "Interactive selection of visual features through
 reinforcement learning".
 """
 

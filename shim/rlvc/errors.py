@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The exceptions of the package, one for each cause.
 
-Each is an :class:`Error` and also the built-in exception that fits best, so that ``except ValueError``
-works as expected. When a method of an agent raises, the agent is unchanged, unless the documentation
-of the method says otherwise.
+Each is an :class:`Error` and also the built-in exception that fits best, so that ``except
+ValueError`` works as expected. When a method of an agent raises, the agent is unchanged, unless the
+documentation of the method says otherwise.
 """
 
 from __future__ import annotations

@@ -2,12 +2,12 @@
 """A run as JSON: what ``rlvc.plot`` draws, and what ``run_gridworld --json`` writes.
 
 ``tools/run_gridworld/REPORT.md`` explains the members. A report that :func:`make` made has the kind
-``"rlvc learn"`` and those members that make sense: ``seed``, ``interactions``, ``classes``, ``depth``,
-``last_split_step``, ``memory_bytes``, ``history``, ``tree``, and for the Binary Gridworld ``maze``,
-``cells``, ``cell_classes`` and ``cell_actions``. Its ``history`` has ``mean_return`` in place of
-``optimal_cells``, and ``names`` says what each bit says. For the Tiled Gridworld, seen by an
-:class:`rlvc.vision.Eye`, there are ``cell``, ``objects`` and ``tests`` as ``run_gridworld tiled --json``
-has them.
+``"rlvc learn"`` and those members that make sense: ``seed``, ``interactions``, ``classes``,
+``depth``, ``last_split_step``, ``memory_bytes``, ``history``, ``tree``, and for the Binary
+Gridworld ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. Its ``history`` has
+``mean_return`` in place of ``optimal_cells``, and ``names`` says what each bit says. For the Tiled
+Gridworld, seen by an :class:`rlvc.vision.Eye`, there are ``cell``, ``objects`` and ``tests`` as
+``run_gridworld tiled --json`` has them.
 """
 
 from __future__ import annotations

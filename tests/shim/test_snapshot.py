@@ -105,4 +105,4 @@ def test_the_command_shows_and_exports(tmp_path, capsys):
     assert command.main(["export", str(file), "--c", str(header)]) == 0
     assert "policy_act" in header.read_text(encoding="utf-8")
     assert command.main(["show", str(log)]) == 1
-    assert capsys.readouterr().err == f"rlvc: {log}: is no agent's file\n"
+    assert capsys.readouterr().err == f"rlvc: {log}: not the file of an agent\n"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The agent: reinforcement learning of classes (section 4.2.1) in one block of memory."""
+"""The agent: reinforcement learning of classes (section 4.2.1)."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from ..domains.domain import Domain, Percept
 from ..errors import RangeError, ReenteredError, RewardError, SnapshotError
 from .batch import Batch, native_log
 from .config import Config
-from .inspect import Looking
+from .inspect import Queries
 from .policy import Policy
 from .results import CHOICE, Choice, Progress
 from .snapshot import MemoryStore, read_file, write_file
 
-_SLICE = 1 << 20  # of learning, between two looks at Ctrl-C: some milliseconds
+_SLICE = 1 << 20  # budget of a slice of learning, after which Ctrl-C is noticed: milliseconds
 
 _begin = _native.call.rlvc_begin
 _act = _native.call.rlvc_act
@@ -31,29 +31,30 @@ _new = tuple.__new__
 _NOTHING = object()
 
 
-class Agent(Looking):
-    """Learns a decision tree that says what to do, from nothing but rewards.
+class Agent(Queries):
+    """Learns a decision tree from rewards alone: it maps percepts to classes, and classes to actions.
 
     Parameters
     ----------
     domain : Domain or int
-        What percepts and features are; a number means :class:`Bits` of so many bits.
+        The percepts and features; an int is the number of bits of :class:`Bits`.
     config : Config or int
-        How to learn; a number means ``Config(actions=number)``.
+        How to learn; an int is the number of actions, with the defaults for the rest.
     **changes
-        Fields of the config to be changed.
+        Fields of the config to change.
 
     Raises
     ------
     ConfigError
-        A field of the config or of the domain is out of range; the text names it.
+        A field of the config or the domain is out of range. The message names it.
     BlockError
-        There is no memory for such an agent.
+        There is not enough memory.
 
     Notes
     -----
-    An agent is used by one thread at a time; a call while another one is under way raises
-    :class:`ReenteredError`. After ``close``, each raises :class:`ClosedError`.
+    Use an agent from one thread at a time: a call during another call raises
+    :class:`~rlvc.errors.ReenteredError`. After :meth:`close` every call raises
+    :class:`~rlvc.errors.ClosedError`.
 
     Examples
     --------
@@ -67,32 +68,32 @@ class Agent(Looking):
 
     def __init__(self, domain: Domain | int, config: Config | int, **changes: Any) -> None:
         if "_address" in self.__dict__:
-            raise ReenteredError("an agent is made once")
+            raise ReenteredError("the agent is initialized already")
         self._make(domain, config, changes, None)
 
     def _make(self, *arguments: Any) -> None:
-        """Make an agent, and what C reads choices from."""
+        """Make the agent, and the struct through which C reads choices."""
         super()._make(*arguments)
         self._choice = _native.Choice()
         self._choice_reference = _byref(self._choice)
-        self._chosen: object = _NOTHING  # the Choice that self._choice says
+        self._chosen: object = _NOTHING  # the Choice that self._choice holds
 
     # -------------------------------------------------------------- acting and observing
 
     def begin(self, percept: Percept) -> None:
-        """Start an episode. One under way is torn, as if its last interaction had been truncated.
+        """Start an episode. An unfinished episode ends as if its last interaction had been truncated.
 
         Parameters
         ----------
         percept : bytes or ndarray
-            The first of the episode; see the domain's ``pack``. It is copied.
+            The first percept, in a form that the domain's ``pack`` accepts. It is copied.
 
         Raises
         ------
         PerceptError
-            It is of the wrong size, dtype or shape.
+            The percept has the wrong size, dtype or shape.
         BusyError
-            The ring is full of what is being learnt from.
+            The replay buffer is full and in use by a learning step.
         """
         status = _begin(self._handle, self._pack(percept))
         if status:
@@ -109,7 +110,7 @@ class Agent(Looking):
         Raises
         ------
         OrderError
-            There is no current percept.
+            There is no current percept: call :meth:`begin` first.
         """
         choice = self._choice
         self._chosen = _NOTHING  # should Ctrl-C come between the call and the next line
@@ -127,33 +128,33 @@ class Agent(Looking):
         terminated: bool = False,
         truncated: bool = False,
     ) -> None:
-        """Store an interaction whose s is the current percept.
+        """Store an interaction that started at the current percept.
 
         Parameters
         ----------
         choice : Choice or int
-            What was done: what ``act`` returned, or an action of one's own choice.
+            The action taken: the result of :meth:`act`, or any other action.
         reward : float
-            Finite, within +-1e12.
+            Finite, in [-1e12, 1e12].
         percept : bytes, ndarray or None
-            s', the next current percept. None is allowed if ``terminated``.
+            s', the next current percept. May be None if ``terminated``.
         terminated : bool
-            The episode is over by its own rules: nothing is to be had after it.
+            Whether the episode ended: no reward can follow.
         truncated : bool
-            It was cut short from outside: s' is still worth something.
+            Whether the episode was cut short, for example by a time limit: s' still has a value.
 
         Raises
         ------
         PerceptError
-            ``percept`` is of the wrong size, dtype or shape.
+            ``percept`` has the wrong size, dtype or shape.
         RewardError
-            ``reward`` is no finite number in range.
+            ``reward`` is not a finite number in range.
         RangeError
-            There is no such action.
+            The action does not exist.
         OrderError
             There is no current percept.
         BusyError
-            The ring is full of what is being learnt from.
+            The replay buffer is full and in use by a learning step.
         """
         if choice is not self._chosen:
             self._choose(choice)
@@ -167,18 +168,18 @@ class Agent(Looking):
                 1 if terminated else 2 if truncated else 0,
             )
         except ctypes.ArgumentError:
-            raise RewardError(f"a reward is a number, not {reward!r:.80}") from None
+            raise RewardError(f"a reward must be a number, not {reward!r:.80}") from None
         if status:
             self._fail(status)
 
     def _choose(self, choice: Any) -> None:
-        """Make self._choice say what the caller did."""
+        """Write the action that the caller took to self._choice."""
         try:
             action, exploited = choice if isinstance(choice, tuple) else (choice, False)
             number = int(action.__index__())
         except (AttributeError, TypeError, ValueError):
             raise RangeError(
-                f"an action is a number, or what act() returned, not {choice!r:.80}"
+                f"an action must be an int or the result of act(), not {choice!r:.80}"
             ) from None
         if not 0 <= number < self._config.actions:
             raise RangeError(f"action {number} is not in [0, {self._config.actions})")
@@ -192,22 +193,22 @@ class Agent(Looking):
         Parameters
         ----------
         percepts : ndarray, [n, *percept_shape]
-            The current percept of each.
+            The current percept of each environment.
 
         Returns
         -------
         ndarray of CHOICE, [n]
-            Its fields are ``action`` and ``exploited``, both uint8.
-
-        Notes
-        -----
-        What ``begin`` and ``act`` do for one. Hand the result to ``observe_many``. Runs of exploitation
-        go across the environments, so that this suits the residual criterion and not the returns.
+            Fields ``action`` and ``exploited``, both uint8. Pass it to :meth:`observe_many`.
 
         Raises
         ------
         PerceptError
-            Wrong dtype or shape, or not C-contiguous.
+            The array has the wrong dtype or shape, or is not C-contiguous.
+
+        Notes
+        -----
+        Use the residual criterion with vectors: runs of exploitation mix the environments, which
+        the criterion of returns cannot use.
         """
         packed = self._domain.pack_many(percepts)
         count = len(packed)
@@ -226,30 +227,32 @@ class Agent(Looking):
         ends: npt.NDArray[np.uint8],
         resume: bool = False,
     ) -> None:
-        """Store many interactions: one of each environment of a vector, or a log.
+        """Store many interactions: one for each environment of a vector, or a log.
 
         Parameters
         ----------
         percepts, next_percepts : ndarray, [n, *percept_shape]
-            s and s'. Where an interaction goes on and the next one's s equals its s', they are of one
-            episode.
+            s and s'. Two successive interactions belong to one episode if the first has ``ends`` 0
+            and its s' equals the s of the second.
         choices : ndarray of CHOICE, [n]
-            What was done.
+            The actions taken.
         rewards : ndarray of float32, [n]
-            Finite, within +-1e12.
+            Finite, in [-1e12, 1e12].
         ends : ndarray of uint8, [n]
-            0: goes on; 1: terminated; 2: truncated.
+            0: the episode goes on; 1: terminated; 2: truncated.
         resume : bool
-            Whether the first one goes on from the current percept; otherwise it begins an episode.
+            Whether the first interaction continues from the current percept; else it begins an
+            episode.
 
         Raises
         ------
         ArrayError
-            Wrong dtype or shape, or not C-contiguous.
+            An array has the wrong dtype or shape, or is not C-contiguous.
         RewardError, RangeError
-            The text says which interaction; nothing was stored.
+            A value is out of range. The message names the interaction; nothing was stored.
         BusyError
-            The ring is full of what is being learnt from; what came before it was stored.
+            The replay buffer is full and in use by a learning step. Earlier interactions were
+            stored.
         """
         arrays = (percepts, choices, rewards, next_percepts, ends)
         native = native_log(self._domain, self._config.actions, *arrays)
@@ -257,7 +260,7 @@ class Agent(Looking):
         self._loop("rlvc_shim_observe", native)
 
     def _loop(self, name: str, native: _native.ShimLog) -> None:
-        """Call a loop over interactions; its errors say at which one it stopped."""
+        """Call a loop over interactions; errors name the interaction where it stopped."""
         done = ctypes.c_size_t()
         status = self._long(name, _byref(native), _byref(done))
         if status:
@@ -269,7 +272,7 @@ class Agent(Looking):
         Parameters
         ----------
         count : int
-            The most environments.
+            Maximum number of environments.
 
         Returns
         -------
@@ -278,7 +281,7 @@ class Agent(Looking):
         Raises
         ------
         RangeError
-            ``count`` is not 1 or more.
+            ``count`` is less than 1.
         """
         return Batch(self, count)
 
@@ -290,8 +293,8 @@ class Agent(Looking):
         Parameters
         ----------
         budget : int or None
-            Samples to look at in this call, [64, 2**32 - 1]; call again until the result says
-            ``done``. None: the whole step, in slices between which Ctrl-C is looked at.
+            Maximum work of this call, in samples, [64, 2**32 - 1]; call again until the result is
+            ``done``. None: do the whole step. Ctrl-C interrupts it.
 
         Returns
         -------
@@ -304,8 +307,8 @@ class Agent(Looking):
 
         Notes
         -----
-        What was done before a callback's exception, or before Ctrl-C, stands: the next call goes on
-        from there. The interpreter's lock is released.
+        After an exception of a callback or Ctrl-C, the next call continues where this one stopped.
+        Other threads run meanwhile: the interpreter's lock is released.
         """
         progress = _native.Progress()
         work = 0
@@ -319,38 +322,41 @@ class Agent(Looking):
                 return Progress(work, progress.rounds, progress.splits, bool(progress.done))
 
     def prune(self, tolerance: float = 0.0, deviations: float = 0.0) -> int:
-        """Take tests out of the tree that the stored interactions do not support (section 7).
+        """Remove tests that the stored interactions do not support (section 7).
+
+        A test is removed if both sides have the same greedy action, and for each action their Q
+        differ by at most ``tolerance`` or by at most ``deviations`` standard errors of the
+        difference.
 
         Parameters
         ----------
         tolerance : float
-            The two sides of a test agree if they act alike, and the Q of each action differ by no more
-            than this, in units of return,
+            In units of return, at least 0.
         deviations : float
-            or than so many standard errors of the difference.
+            In standard errors, at least 0.
 
         Returns
         -------
         int
-            How many splits were undone.
+            Number of splits removed.
 
         Raises
         ------
         RangeError
             A number is out of range.
         BusyError
-            A learning step is under way.
+            A learning step is not finished.
 
         Notes
         -----
-        No greedy action changes. The next ``learn`` splits again what it finds to differ. Source:
+        No greedy action changes. The next :meth:`learn` may split the same classes again. Source:
         ``rlvc_prune`` in ``core/include/rlvc/agent.h``.
         """
         undone = ctypes.c_uint32()
         try:
             status = self._long("rlvc_prune", tolerance, deviations, _byref(undone))
         except ctypes.ArgumentError:
-            raise RangeError("tolerance and deviations are numbers") from None
+            raise RangeError("tolerance and deviations must be numbers") from None
         self._check(status)
         return undone.value
 
@@ -364,50 +370,51 @@ class Agent(Looking):
         entries: int | None = None,
         effort: int | None = None,
     ) -> Policy:
-        """Make the smallest policy that acts as well as the agent at all percepts in its ring.
+        """Make the smallest policy that acts as well as the agent on all percepts in the replay buffer.
 
         Parameters
         ----------
         tolerance : float or None
-            An action is as good as the agent's if it was tried and its Q is no more than this below, in
-            units of return. 0: just the agent's action. None: twice the tolerance of the config, which
-            the solver cannot tell from nothing.
+            An action is as good as the agent's if it was tried and its Q is at most this much
+            lower, in units of return. 0: only the agent's action. None: twice the tolerance of the
+            config, the accuracy of the solver.
         percepts : int or None
-            Distinct ones that there is room for, by the features that the tree tests. None: 16384, or as
-            many as the ring holds.
+            Maximum number of percepts that differ in the features of the tree. None: 16384, or the
+            capacity of the replay buffer if that is less.
         entries : int or None
-            Of the table in which subsets of percepts are kept. None: 65536.
+            Size of the table of subsets of percepts. None: 65536.
         effort : int or None
-            Words that may be looked at, about. None: 2**26, some seconds at worst.
+            Approximate limit of the work, in machine words read. None: 2**26, a few seconds at
+            most.
 
         Returns
         -------
         Policy
-            Its ``info`` says how many leaves there were, and are, and whether fewer are possible.
+            Its ``info`` has the number of leaves before and after, and whether that is the minimum.
 
         Raises
         ------
         RangeError, ConfigError
             A number is out of range.
         BlockError
-            There is no memory for it.
+            There is not enough memory.
 
         Notes
         -----
-        The agent is unchanged. After a learning step by the criterion of returns the ring is empty: let
-        more interactions come first. Source: ``core/include/rlvc/policy.h``.
+        The agent is unchanged. With the criterion of returns the replay buffer is empty after a
+        learning step: collect interactions first. Source: ``core/include/rlvc/policy.h``.
         """
         return Policy(self, tolerance=tolerance, percepts=percepts, entries=entries, effort=effort)
 
-    # -------------------------------------------------------------- outliving the process
+    # -------------------------------------------------------------- saving and loading
 
     def snapshot(self) -> bytes:
-        """Give all that decides the agent's future, a learning step under way included.
+        """Return the complete state of the agent, also in the middle of a learning step.
 
         Returns
         -------
         bytes
-            The same on every machine; ``core/SPEC.md`` says what is in it.
+            The same on every machine. ``core/SPEC.md`` describes the format.
         """
         store = MemoryStore(self._snapshot_bytes())
         self._check(self._long("rlvc_save", _byref(store.native)))
@@ -415,16 +422,16 @@ class Agent(Looking):
 
     @classmethod
     def restore(cls, domain: Domain | int, config: Config | int, snapshot: bytes) -> Agent:
-        """Make an agent out of a snapshot, which goes on as if it had never stopped.
+        """Make an agent from a snapshot. It continues exactly as the original would have.
 
         Parameters
         ----------
         domain : Domain or int
-            As it was.
+            The domain of the original.
         config : Config or int
-            As it was, in every field.
+            The config of the original, the same in every field.
         snapshot : bytes
-            What :meth:`snapshot` gave.
+            The result of :meth:`snapshot`.
 
         Returns
         -------
@@ -433,20 +440,20 @@ class Agent(Looking):
         Raises
         ------
         SnapshotError
-            It is damaged, of another version, or of another config or domain.
+            It is corrupt, or has another version, config or domain.
         """
         agent = cls.__new__(cls)
         agent._make(domain, config, {}, bytes(snapshot))
         return agent
 
     def save(self, file: str | Path, names: Sequence[str] = ()) -> None:
-        """Write the agent to a file, which is there as a whole or as it was before.
+        """Write the agent to a file. If that fails, an existing file stays as it was.
 
         Parameters
         ----------
         file : str or Path
         names : sequence of str
-            What each bit says, for ``python -m rlvc show``.
+            Names of the bits or components, for ``python -m rlvc show``.
 
         Raises
         ------
@@ -463,8 +470,8 @@ class Agent(Looking):
         ----------
         file : str or Path
         domain : Domain or None
-            As it was; None if it was :class:`Bits`, :class:`Descriptors` or
-            :class:`Thresholds`.
+            The domain of the agent. None if that is :class:`Bits`, :class:`Descriptors` or
+            :class:`Thresholds`, which are in the file.
 
         Returns
         -------
@@ -475,12 +482,12 @@ class Agent(Looking):
         StoreError
             The file cannot be read.
         SnapshotError
-            It is no such file, is damaged, or needs a domain.
+            It is not such a file, is corrupt, or needs a domain.
         """
         kept, config, _, snapshot = read_file(file)
         domain = kept if domain is None else domain
         if domain is None:
-            raise SnapshotError(f"{file}: its agent has a domain of its own: give it")
+            raise SnapshotError(f"{file}: the agent has a user-defined domain: pass it as domain")
         try:
             return cls.restore(domain, config, snapshot)
         except SnapshotError as error:

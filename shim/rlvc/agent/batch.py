@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arrays of interactions: those of one call, or of a vector of environments for as long as it lives."""
+"""Arrays of interactions: of one call, or of a vector of environments."""
 
 from __future__ import annotations
 
@@ -20,38 +20,35 @@ if TYPE_CHECKING:
 
 _DTYPES = {name: np.dtype(name) for name in ("float32", "uint8", "uint32")} | {"CHOICE": CHOICE}
 
-_QUICK_BYTES = (
-    4096  # percepts of so many are looked at in microseconds, with the interpreter's lock
-)
+_QUICK_BYTES = 4096  # up to this many bytes of percepts take microseconds: keep the interpreter's lock
 
 
 def checked(array: Any, name: str, dtype: str, shape: tuple[int, ...]) -> npt.NDArray[Any]:
-    """Make sure that an array is what C takes it for.
+    """Return the array if it is as C expects it.
 
     Parameters
     ----------
     array : object
     name : str
-        What to call it in errors.
+        Its name in errors.
     dtype : {"float32", "uint8", "uint32", "CHOICE"}
     shape : tuple of int
 
     Returns
     -------
     ndarray
-        Itself.
 
     Raises
     ------
     ArrayError
-        It is no array, of another dtype or shape, or not C-contiguous.
+        It is not an array, has another dtype or shape, or is not C-contiguous.
     """
     if not isinstance(array, np.ndarray):
-        raise ArrayError(f"{name}: an array is wanted, not {type(array).__name__}")
+        raise ArrayError(f"{name}: must be an array, not {type(array).__name__}")
     if array.dtype != _DTYPES[dtype] or array.shape != shape:
-        raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, not {dtype}{list(shape)}")
+        raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, expected {dtype}{list(shape)}")
     if not array.flags.c_contiguous:
-        raise ArrayError(f"{name}: not C-contiguous: numpy.ascontiguousarray makes it so")
+        raise ArrayError(f"{name}: not C-contiguous: use numpy.ascontiguousarray")
     return array
 
 
@@ -70,9 +67,9 @@ def native_log(
     ----------
     domain : Domain
     actions : int
-        How many there are.
+        Number of actions.
     percepts, choices, rewards, next_percepts, ends : ndarray, [n, ...]
-        As :meth:`rlvc.Agent.observe_many` has them.
+        As for :meth:`rlvc.Agent.observe_many`.
 
     Returns
     -------
@@ -81,12 +78,12 @@ def native_log(
     Raises
     ------
     ArrayError
-        One is of the wrong dtype or shape, or not C-contiguous.
+        An array has the wrong dtype or shape, or is not C-contiguous.
     """
     before, after = domain.pack_many(percepts), domain.pack_many(next_percepts)
     count = len(before)
     if len(after) != count:
-        raise ArrayError(f"next_percepts: {len(after)} of them, not {count}")
+        raise ArrayError(f"next_percepts: {len(after)}, expected {count}")
     checked(choices, "choices", "CHOICE", (count,))
     checked(rewards, "rewards", "float32", (count,))
     checked(ends, "ends", "uint8", (count,))
@@ -98,42 +95,42 @@ def native_log(
 
 
 class Batch:
-    """The interactions of a vector of environments, in arrays whose places C knows.
+    """The arrays of a vector of environments, shared with C.
 
-    :meth:`rlvc.Agent.batch` makes one. A step of the vector is: write the current percepts, call
-    :meth:`act`, step the environments, write what came of it, call :meth:`observe`. The arrays stay
-    where they are and nothing about them is looked at again, so that from 64 environments on a step
-    costs less than a tenth of as many calls of ``act`` and ``observe``
-    (``tools/bench/shim.py``). ``batch.rewards[...] = rewards`` is the fastest way to write into one.
+    :meth:`rlvc.Agent.batch` makes one. For each step of the vector: write ``percepts``, call
+    :meth:`act`, step the environments, write ``rewards``, ``next_percepts`` and ``ends``, call
+    :meth:`observe`. Write into the arrays, as in ``batch.rewards[...] = rewards``: they cannot be
+    replaced. From 64 environments on, a step costs less than a tenth of the same number of calls of
+    ``act`` and ``observe`` (``tools/bench/shim.py`` measures it).
 
     Parameters
     ----------
     agent : Agent
     count : int
-        The most environments.
+        Maximum number of environments.
 
     Attributes
     ----------
     percepts : ndarray, [count, *percept_shape]
-        The current one of each environment, to be written.
+        Input: the current percept of each environment.
     choices : ndarray of CHOICE, [count]
-        What :meth:`act` chose; may be changed.
+        Output of :meth:`act`; may be changed.
     rewards : ndarray of float32, [count]
-        What that earned, to be written: finite, within +-1e12.
+        Input: finite, in [-1e12, 1e12].
     next_percepts : ndarray, [count, *percept_shape]
-        What it led to, to be written; not looked at where that is the end.
+        Input: s'. Ignored where the interaction terminated.
     ends : ndarray of uint8, [count]
-        How it ended, to be written. 0: goes on; 1: terminated; 2: truncated.
+        Input. 0: the episode goes on; 1: terminated; 2: truncated.
 
     Raises
     ------
     RangeError
-        ``count`` is not 1 or more.
+        ``count`` is less than 1.
 
     Notes
     -----
-    Runs of exploitation go across the environments, so that this suits the residual criterion and not
-    the returns.
+    Use the residual criterion with vectors: runs of exploitation mix the environments, which the
+    criterion of returns cannot use.
 
     Examples
     --------
@@ -154,7 +151,7 @@ class Batch:
         domain = agent.domain
         percepts = ((count, *domain.percept_shape), domain.percept_dtype)
         numbers = (((count,), dtype) for dtype in (CHOICE, np.float32, np.uint8))
-        # Views: numpy refuses to move what they look at.
+        # Views: numpy refuses to resize an array that has one.
         before, after, choices, rewards, ends = (
             np.zeros(shape, dtype)[:] for shape, dtype in (percepts, percepts, *numbers)
         )
@@ -180,7 +177,7 @@ class Batch:
     ends = property(attrgetter("_ends"))
 
     def _take(self, count: int | None) -> None:
-        """Let C see the first `count` environments, or all."""
+        """Let C see the first `count` environments, or all of them."""
         if count is not None and (not isinstance(count, int) or not 0 <= count <= self._count):
             raise RangeError(f"count: {count!r} is not in [0, {self._count}]")
         self._taken = -1  # should Ctrl-C come before the last line
@@ -188,24 +185,24 @@ class Batch:
         self._taken = count
 
     def act(self, count: int | None = None) -> npt.NDArray[Any]:
-        """Choose an action for each environment: what ``begin`` and ``act`` do for one.
+        """Choose an action for each environment.
 
         Parameters
         ----------
         count : int or None
-            For the first so many only, if there are fewer current percepts than environments.
+            Use only the first ``count`` environments. None: all.
 
         Returns
         -------
         ndarray of CHOICE, [count]
-            ``choices``, whose fields are ``action`` and ``exploited``, both uint8.
+            ``choices``, with the fields ``action`` and ``exploited``, both uint8.
 
         Raises
         ------
         RangeError
             ``count`` is out of range.
         BusyError
-            The ring is full of what is being learnt from.
+            The replay buffer is full and in use by a learning step.
         """
         if count is not self._taken:
             self._take(count)
@@ -215,19 +212,21 @@ class Batch:
         return self._choices if count is None else self._choices[:count]
 
     def observe(self, count: int | None = None) -> None:
-        """Store an interaction of each environment.
+        """Store an interaction for each environment.
 
         Parameters
         ----------
         count : int or None
-            Of the first so many only.
+            Use only the first ``count`` environments. None: all.
 
         Raises
         ------
         RewardError, RangeError
-            A reward, an action or an end is out of range; the text says which. Nothing was stored.
+            A reward, an action or an end is out of range. The message names the interaction;
+            nothing was stored.
         BusyError
-            The ring is full of what is being learnt from; what came before it was stored.
+            The replay buffer is full and in use by a learning step. Earlier interactions were
+            stored.
         """
         if count is not self._taken:
             self._take(count)

@@ -36,8 +36,8 @@ class Config:
     actions : int
         How many actions there are, [1, 255].
     capacity : int
-        Interactions the ring holds, [1, 2**31 - 1]; when it is full the oldest leaves. A truncated or
-        torn episode takes the room of one more.
+        Interactions the ring holds, [1, 2**31 - 1]; when it is full the oldest leaves. A truncated
+        or torn episode takes the room of one more.
     classes : int
         Classes the tree may grow to, [1, 65535].
     features_at_once : int or None
@@ -50,12 +50,12 @@ class Config:
     seed : int
         Of the exploration, [0, 2**32 - 1].
     criterion : {"residual", "returns"}
-        Which classes are aliased (section 4.2.2): by one-step returns on one growing database, or by
-        truncated discounted returns on a fresh one each step, as published.
+        Which classes are aliased (section 4.2.2): by one-step returns on one growing database, or
+        by truncated discounted returns on a fresh one each step, as published.
     score : {"gain", "gini", "chi2", "ranks"}
-        How well a feature explains a partition (section 4.2.3); or, without a partition, the rank-sum
-        test of the targets with the feature against those without it (not for a domain with its own
-        ``oracle``; ``capacity`` below 2**21).
+        How well a feature explains a partition (section 4.2.3); or, without a partition, the
+        rank-sum test of the targets with the feature against those without it (not for a domain
+        with its own ``oracle``; ``capacity`` below 2**21).
     solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"}
         Where the values of the classes come from.
     untried : {"excluded", "optimistic"}
@@ -68,9 +68,9 @@ class Config:
         rewards are alike (residual criterion; the candidates must fit into ``features_at_once``).
         None: for up to 64 bits yes, else no.
     explore : {"directed", "uniform"}
-        How to explore: one action in two leads to the nearest class-action pair that was little tried,
-        the other is drawn with preference for what was seldom tried in the class; or all alike, as
-        published.
+        How to explore: one action in two leads to the nearest class-action pair that was little
+        tried, the other is drawn with preference for what was seldom tried in the class; or all
+        alike, as published.
     gate : bool
         Whether a class is split by its targets only if that raises the estimated return (residual
         criterion; not with an own oracle). Splits by what follows are left alone.
@@ -93,8 +93,8 @@ class Config:
 
     Notes
     -----
-    The fields are those of ``rlvc_config`` in ``core/include/rlvc/agent.h``, which says more. They are
-    checked when an agent is made: :class:`ConfigError` then names the field and its range.
+    The fields are those of ``rlvc_config`` in ``core/include/rlvc/agent.h``, which says more. They
+    are checked when an agent is made: :class:`ConfigError` then names the field and its range.
     """
 
     actions: int

@@ -24,8 +24,8 @@ class Fewest(NamedTuple):
     exact : bool
         Whether no tree has fewer; if not, table or effort did not suffice to know it.
     splits : ndarray of uint32, [leaves - 1, 2]
-        Leaf and feature: split j leaves the rows without the feature in that leaf, and gives those with
-        it the new leaf j + 1.
+        Leaf and feature: split j leaves the rows without the feature in that leaf, and gives those
+        with it the new leaf j + 1.
     actions : ndarray of uint8, [leaves]
     """
 
@@ -71,8 +71,8 @@ def fewest(
 
     Notes
     -----
-    What a policy could be at best, when it is known what is optimal in each state: for what an agent has
-    learnt, see :meth:`rlvc.Agent.compact`. Source: ``core/include/rlvc/fewest.h``.
+    What a policy could be at best, when it is known what is optimal in each state: for what an
+    agent has learnt, see :meth:`rlvc.Agent.compact`. Source: ``core/include/rlvc/fewest.h``.
 
     Examples
     --------

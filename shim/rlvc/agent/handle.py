@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A block of memory: how an agent's is made, how errors come out, what C writes, and the end."""
+"""What agents and policies share: their memory, errors, printing, export and closing."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _Self = TypeVar("_Self", bound="Handle")
 
 
 class Handle:
-    """What C knows an agent by. The methods of an agent are in :class:`rlvc.Agent`."""
+    """Base class of :class:`rlvc.Agent` and :class:`rlvc.Policy`."""
 
     _print, _export = "rlvc_print", "rlvc_export_c"
 
@@ -66,7 +66,7 @@ class Handle:
         changes: dict[str, Any],
         snapshot: bytes | None,
     ) -> None:
-        """Make an agent in a block of its own: a new one, or that of a snapshot."""
+        """Allocate memory and make an agent in it: a new one, or that of a snapshot."""
         if isinstance(domain, int):
             domain = Bits(domain)
         if isinstance(config, int):
@@ -89,7 +89,7 @@ class Handle:
             self._block: npt.NDArray[np.uint64] | None = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
             raise BlockError(
-                f"no memory for an agent of {size.value} bytes: allow fewer with capacity or classes"
+                f"not enough memory for an agent of {size.value} bytes: reduce capacity or classes"
             ) from None
         agent = ctypes.c_void_p()
         place = (self._block.ctypes.data, size.value)
@@ -100,7 +100,7 @@ class Handle:
             reference = _byref(store.native)
             status = _native.long_call.rlvc_load(*references, *place, reference, _byref(agent))
         self._check(status)
-        # None while a long call is under way, and after close(): C then answers RLVC_E_NULL.
+        # None during a long call and after close(): C then returns RLVC_E_NULL.
         self._handle: int | None = agent.value
         self._address = agent.value
         self._memory_bytes = size.value
@@ -118,15 +118,15 @@ class Handle:
             if getattr(self, "_address", 0) is None:
                 raise ClosedError("the agent is closed")
             if self._handle is None:
-                raise ReenteredError("the agent is in a call: of a callback, or of another thread")
-            raise PerceptError("a percept is wanted unless the episode is terminated")
+                raise ReenteredError("the agent is in use: a callback or another thread called it")
+            raise PerceptError("percept: None is only allowed if the episode terminated")
         text = _native.status_text(status)
         if index is not None:
             text = f"interaction {index}: {text}"
         raise _ERRORS.get(status, Error)(text)
 
     def _long(self, name: str, *arguments: Any) -> int:
-        """Call a function that releases the interpreter's lock; the agent is not to be had meanwhile."""
+        """Call a function without the interpreter's lock; the agent cannot be used meanwhile."""
         handle = self._handle
         if handle is None:
             self._fail(_native.E_NULL)
@@ -136,21 +136,21 @@ class Handle:
         finally:
             self._handle = handle
 
-    # -------------------------------------------------------------- what C writes
+    # -------------------------------------------------------------- printing and export
 
     @property
     def tree(self) -> dict[str, Any]:
-        """The tree as data: ``core/SPEC.md`` ("JSON of the tree") gives its form."""
+        """The tree as data; ``core/SPEC.md`` ("JSON of the tree") describes it."""
         tree: dict[str, Any] = json.loads(self.print("json"))
         return tree
 
     def print(self, form: Literal["text", "dot", "json"] = "text") -> str:
-        """Print the tree with the action of each leaf; an agent prints values and numbers, too.
+        """Return the tree as text, with the action of each leaf; of an agent also its value and samples.
 
         Parameters
         ----------
         form : {"text", "dot", "json"}
-            Indented text, a Graphviz digraph, or the JSON of ``core/SPEC.md``.
+            Indented text, a Graphviz digraph, or JSON as in ``core/SPEC.md``.
 
         Returns
         -------
@@ -159,20 +159,20 @@ class Handle:
         Raises
         ------
         RangeError
-            There is no such form.
+            ``form`` is unknown.
         """
         forms = {"text": _native.PRINT_TEXT, "dot": _native.PRINT_DOT, "json": _native.PRINT_JSON}
         if form not in forms:
-            raise RangeError(f"form: {form!r} is none of {', '.join(forms)}")
+            raise RangeError(f"form: {form!r} is not one of {', '.join(forms)}")
         return self._written(self._print, forms[form])
 
     def export_c(self, name: str = "policy") -> str:
-        """Give the policy as a C99 header for a controller that only acts.
+        """Return the policy as a C99 header for a controller.
 
         Parameters
         ----------
         name : str
-            A C identifier of at most 48 characters; ``NAME_act(percept)`` is the function to call.
+            A C identifier of at most 48 characters. The header defines ``NAME_act(percept)``.
 
         Returns
         -------
@@ -181,28 +181,29 @@ class Handle:
         Raises
         ------
         RangeError
-            ``name`` is no such identifier.
+            ``name`` is not such an identifier.
         ConfigError
-            The domain is none of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
+            The domain is not one of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
 
         Notes
         -----
-        A percept of descriptors is the record that ``pack`` makes, aligned to 4: what
-        ``rlvc_extractor_extract`` fills on the controller; of thresholds it is an array of float.
-        Compile such a header with ``-ffp-contract=off``, and the action is the same as here for every
-        percept, bit for bit. Source: ``core/include/rlvc/export.h``.
+        A percept of bits is packed as by the domain's ``pack``. A percept of descriptors is the
+        record that ``pack`` returns or ``rlvc_extractor_extract`` fills, aligned to 4 bytes. A
+        percept of thresholds is an array of float. Compiled with ``-ffp-contract=off``, the header
+        gives the same action as ``predict`` for every percept. Source:
+        ``core/include/rlvc/export.h``.
         """
         return self._written(self._export, self._identifier(name), None)
 
     @staticmethod
     def _identifier(name: str) -> bytes:
-        """The name of an exported policy, as C takes it; C says whether it is an identifier."""
+        """Encode the name of an exported policy; C checks that it is an identifier."""
         if not isinstance(name, str) or not name.isascii() or "\0" in name:
-            raise RangeError(f"name: {name!r:.80} is no identifier of C")
+            raise RangeError(f"name: {name!r:.80} is not a C identifier")
         return name.encode()
 
     def _written(self, name: str, what: Any, *rest: Any) -> str:
-        """Give what a function of the library writes."""
+        """Return the output of a function of the library."""
         room = _TEXT_ROOM
         while True:
             buffer = np.empty(room, np.uint8)
@@ -212,25 +213,25 @@ class Handle:
                 return buffer[: text.size].tobytes().decode()
             room = text.size
 
-    # -------------------------------------------------------------- the end
+    # -------------------------------------------------------------- closing
 
     def close(self) -> None:
-        """Give the agent's memory back. Closing twice does nothing.
+        """Free the memory. Closing twice does nothing.
 
         Raises
         ------
         ReenteredError
-            The agent is in a call.
+            The agent is in use.
         """
         if self._address is None:
             return
         if self._handle is None or self._guard.inside:
-            raise ReenteredError("the agent is in a call: it cannot be closed")
+            raise ReenteredError("the agent is in use: it cannot be closed")
         self._handle = self._address = None
         self._block = None
 
     def __enter__(self: _Self) -> _Self:
-        """Give the agent itself."""
+        """Return the object itself."""
         return self
 
     def __exit__(
@@ -239,22 +240,22 @@ class Handle:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        """Close the agent."""
+        """Close the object."""
         self.close()
 
     @property
     def domain(self) -> Domain:
-        """What percepts and features are."""
+        """The domain: percepts and features."""
         return self._domain
 
     @property
     def config(self) -> Config:
-        """How it learns."""
+        """The config of the agent."""
         return self._config
 
     @property
     def memory_bytes(self) -> int:
-        """The size of the agent's block, in bytes."""
+        """Size of the memory, in bytes."""
         return self._memory_bytes
 
     def _snapshot_bytes(self) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What can be asked of an agent, none of which changes it."""
+"""The queries of an agent: none changes it."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ _predict = _native.call.rlvc_predict
 _byref = ctypes.byref
 
 
-class Looking(Handle):
-    """An agent as one looks at it. The methods of an agent are in :class:`rlvc.Agent`."""
+class Queries(Handle):
+    """The queries of :class:`rlvc.Agent`."""
 
     def _make(self, *arguments: Any) -> None:
-        """Make an agent, and what C answers into."""
+        """Make the agent, and the memory for results of C."""
         super()._make(*arguments)
         self._class = ctypes.c_uint32()
         self._action = ctypes.c_uint32()
         self._answers = (_byref(self._class), _byref(self._action))
 
     def __repr__(self) -> str:
-        """Say what it is."""
+        """Describe the agent."""
         if self._handle is None:
-            return "<rlvc.Agent, closed>" if self._address is None else "<rlvc.Agent, in a call>"
+            return "<rlvc.Agent, closed>" if self._address is None else "<rlvc.Agent, in use>"
         s = self.statistics
         return f"<rlvc.Agent of {s.classes} classes after {s.interactions} interactions>"
 
@@ -43,26 +43,26 @@ class Looking(Handle):
         percept: Percept,
         out: tuple[npt.NDArray[np.uint32] | None, npt.NDArray[np.uint32] | None] | None = None,
     ) -> Prediction:
-        """Give the class of a percept and its greedy action, or those of an array of percepts.
+        """Return the class and the greedy action of a percept, or of each percept of an array.
 
         Parameters
         ----------
         percept : bytes, or ndarray [*percept_shape] or [n, *percept_shape]
-            One percept, or n of them.
+            One percept, or n percepts.
         out : pair of ndarray of uint32, [n], or None
-            For n percepts, where to write the classes and the actions; a None in it leaves that out.
+            With n percepts: the arrays for the classes and the actions. Either may be None.
 
         Returns
         -------
         Prediction
-            (class_id, action), numbers or arrays.
+            (class_id, action): ints, or arrays [n].
 
         Raises
         ------
         PerceptError
-            Wrong size, dtype or shape, or not C-contiguous.
+            A percept has the wrong size, dtype or shape, or the array is not C-contiguous.
         ArrayError
-            ``out`` is of the wrong dtype or shape, not C-contiguous, or read-only.
+            ``out`` has the wrong dtype or shape, is not C-contiguous, or is read-only.
         """
         if not self._domain.is_one(percept):
             return self._predict_many(percept, out)
@@ -77,7 +77,7 @@ class Looking(Handle):
         if out is None:
             out = (np.empty(count, np.uint32), np.empty(count, np.uint32))
         elif not isinstance(out, tuple) or len(out) != 2:
-            raise ArrayError("out: a pair of arrays is wanted")
+            raise ArrayError("out: must be a pair of arrays")
         pointers: list[int | None] = []
         for array in out:
             if array is not None and not checked(array, "out", "uint32", (count,)).flags.writeable:
@@ -98,7 +98,7 @@ class Looking(Handle):
 
     @property
     def statistics(self) -> Statistics:
-        """Numbers about the agent."""
+        """Statistics of the agent."""
         native = _native.Statistics()
         self._check(_native.call.rlvc_stats(self._handle, _byref(native)))
         return Statistics(
@@ -107,7 +107,7 @@ class Looking(Handle):
 
     @property
     def classes(self) -> int:
-        """How many classes the tree tells apart."""
+        """Number of classes: leaves of the tree."""
         return self.statistics.classes
 
     def _tables(self) -> tuple[npt.NDArray[Any], ...]:
@@ -129,7 +129,7 @@ class Looking(Handle):
 
     @property
     def samples(self) -> npt.NDArray[np.uint32]:
-        """How many interactions each Q rests on, uint32 [classes, actions]; 0: untried."""
+        """Number of interactions behind each Q, uint32 [classes, actions]; 0: untried."""
         return self._tables()[1]
 
     @property
@@ -144,7 +144,7 @@ class Looking(Handle):
 
     @property
     def splits(self) -> list[Split]:
-        """The splits of the tree, in the order in which they were made."""
+        """The splits of the tree, oldest first."""
         native = _native.Split()
         record = ctypes.create_string_buffer(self._domain.feature_bytes)
         splits = []
@@ -170,11 +170,11 @@ class Looking(Handle):
         return splits
 
     def check(self) -> None:
-        """Check every invariant of the agent's memory, which ``core/SPEC.md`` lists.
+        """Check every invariant of the agent's memory; ``core/SPEC.md`` lists them.
 
         Raises
         ------
         BlockError
-            The memory is damaged.
+            The memory is corrupt.
         """
         self._check(self._long("rlvc_agent_check"))

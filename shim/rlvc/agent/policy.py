@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A policy by itself, made as small as can be, to be deployed."""
+"""Small policies for deployment."""
 
 from __future__ import annotations
 
@@ -24,28 +24,27 @@ _byref = ctypes.byref
 
 @dataclasses.dataclass(frozen=True)
 class Compaction:
-    """What became of an agent's tree.
+    """The sizes of a policy and of the tree that it was made from.
 
     Attributes
     ----------
     classes : int
         Leaves of the agent's tree.
     collapsed : int
-        Left, once every subtree whose leaves all act alike has become one.
+        Leaves after each subtree with one action became one leaf.
     leaves : int
-        Of the policy.
+        Leaves of the policy.
     percepts : int
-        Distinct ones in the agent's ring that it was made for; 0 if there was no room for them.
+        Number of different percepts in the replay buffer; 0: more than there was room for.
     features : int
-        Distinct ones that the agent's tree tests.
+        Number of different features in the agent's tree.
     bytes : int
-        Of memory that the policy takes in C.
+        Memory of the policy in C, in bytes.
     exact : bool
-        Whether no tree over these features has fewer leaves.
+        Whether the minimum is proven: no tree over these features has fewer leaves.
     as_agent : bool
-        Whether it does what the agent does at every percept whatever, as nothing smaller was found than
-        the collapsed tree. If not, at a percept unlike all of the ring's it does what is done at the
-        percepts of the leaf that it comes to.
+        Whether the policy acts as the agent on every possible percept, because it is the collapsed
+        tree. If not, it may act otherwise on percepts that were not in the replay buffer.
     """
 
     classes: int
@@ -59,18 +58,18 @@ class Compaction:
 
 
 class Policy(Handle):
-    """The smallest policy that acts as well as an agent at all percepts in its ring.
+    """The smallest policy that acts as well as an agent on all percepts in the replay buffer.
 
-    :meth:`rlvc.Agent.compact` makes one. It is independent of the agent, which may go on learning.
+    :meth:`rlvc.Agent.compact` makes one. It is independent of the agent.
 
     Attributes
     ----------
     info : Compaction
-        How many leaves there were, and are.
+        Numbers of leaves before and after.
 
     Notes
     -----
-    A policy is used by one thread at a time. Source: ``core/include/rlvc/policy.h``.
+    Use a policy from one thread at a time. Source: ``core/include/rlvc/policy.h``.
 
     Examples
     --------
@@ -93,7 +92,7 @@ class Policy(Handle):
         try:
             block = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
-            raise BlockError(f"no memory for a block of {size.value} bytes") from None
+            raise BlockError(f"not enough memory for {size.value} bytes") from None
         policy, info = ctypes.c_void_p(), _native.PolicyInfo()
         place = (block.ctypes.data, size.value)
         agent._check(
@@ -112,12 +111,12 @@ class Policy(Handle):
         self.info = Compaction(**(fields | flags))
 
     def act(self, percept: Percept) -> int | npt.NDArray[np.uint32]:
-        """Give the action at a percept, or at each of an array of percepts.
+        """Return the action at a percept, or at each percept of an array.
 
         Parameters
         ----------
         percept : bytes, or ndarray [*percept_shape] or [n, *percept_shape]
-            One percept, or n of them.
+            One percept, or n percepts.
 
         Returns
         -------
@@ -126,7 +125,7 @@ class Policy(Handle):
         Raises
         ------
         PerceptError
-            Wrong size, dtype or shape, or not C-contiguous.
+            A percept has the wrong size, dtype or shape, or the array is not C-contiguous.
         """
         if self._domain.is_one(percept):
             status = _policy_act(self._handle, self._pack(percept), self._answer)
@@ -148,12 +147,12 @@ class Policy(Handle):
         return actions
 
     def __repr__(self) -> str:
-        """Say what it is."""
+        """Describe the policy."""
         return f"<rlvc.Policy of {self.info.leaves} leaves>"
 
 
 def _set(native: _native.PolicyConfig, field: str, value: Any) -> None:
-    """Set a field of the config, which C checks again."""
+    """Set a field of the config; C checks its range."""
     try:
         if field != "tolerance" and not 0 <= value < 2**32 * (2**32 if field == "effort" else 1):
             raise ValueError

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What an agent answers."""
+"""Types of the results of an agent."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 CHOICE = np.dtype([("action", np.uint8), ("exploited", np.uint8)])
-"""Of the arrays of choices: ``rlvc_choice``."""
+"""Dtype of arrays of choices."""
 
 
 class Choice(NamedTuple):
-    """What was done, and why.
+    """An action, and whether it was exploitation.
 
     Attributes
     ----------
     action : int
         [0, actions).
     exploited : bool
-        Whether it is the greedy action of the agent's policy, chosen because it is.
+        Whether it was chosen because it is greedy.
     """
 
     action: int
@@ -41,16 +41,16 @@ class Prediction(NamedTuple):
 
 
 class Progress(NamedTuple):
-    """How far a learning step is.
+    """The progress of a learning step.
 
     Attributes
     ----------
     work : int
-        Samples looked at by this call.
+        Work of this call, in samples.
     rounds : int
-        Rounds of refinement begun in this step so far.
+        Rounds of refinement started in this step.
     splits : int
-        Splits made in this step so far.
+        Splits made in this step.
     done : bool
         Whether the step is finished.
     """
@@ -63,28 +63,28 @@ class Progress(NamedTuple):
 
 @dataclasses.dataclass(frozen=True)
 class Statistics:
-    """Numbers about an agent.
+    """Statistics of an agent.
 
     Attributes
     ----------
     interactions : int
-        Observed since the agent was made.
+        Number observed since the agent was made.
     stored : int
-        Of these, still in the ring.
+        Number in the replay buffer.
     step : int
-        k: learning steps finished.
+        k: number of learning steps finished.
     classes : int
         Leaves of the tree.
     depth : int
-        Tests on its longest path.
+        Number of tests on the longest path.
     last_split : int
-        The step k at which the newest split was made; 0 if none.
+        The step k of the newest split; 0: none.
     refused : int
-        Splits that proved real but found the tree full.
+        Number of significant splits not made because the tree was full.
     sweeps : int
-        Of the last solution.
+        Number of sweeps of the last solution.
     residual : float
-        Of the last solution, in units of reward: max |V_new - V_old| of its last sweep.
+        max |V_new - V_old| of the last sweep, in units of reward.
     """
 
     interactions: int
@@ -100,25 +100,26 @@ class Statistics:
 
 @dataclasses.dataclass(frozen=True)
 class Split:
-    """One split of the tree: percepts with the feature got a new class.
+    """One split of the tree: percepts with the feature became a new class.
 
     Attributes
     ----------
     index : int
-        j: its place in the order of splits. The new class is j + 1.
+        j: its index, oldest first. The new class is j + 1.
     class_id : int
         The class that was split; it keeps the percepts without the feature.
     feature : scalar of the domain's feature_dtype
     name : str
         The feature's name.
     step : int
-        k at that time.
+        The learning step k of the split.
     action : int or None
-        Whose targets betrayed the aliasing; None if those of all actions did together.
+        The action whose targets showed the aliasing; None: all actions together.
     samples : int
-        Of that class and action, or of the class.
+        Number of samples of that class and action, or of the class.
     log_tests, score, log_p : float
-        ln of the number of tests corrected for; the score; ln of the corrected p-value.
+        ln of the number of tests that the p-value is corrected for; the score; ln of the corrected
+        p-value.
     """
 
     index: int

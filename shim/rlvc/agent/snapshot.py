@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Snapshots in memory and in files.
 
-An agent's file is a line ``rlvc agent 1``, a line of JSON (``bits``, ``descriptors``, ``thresholds``,
-``names``, ``config``, ``bytes``), and the library's snapshot as it is. One of the first three has the
-parameters of the domain; all are null for one's own.
+The file of an agent is a line ``rlvc agent 1``, a line of JSON and the library's snapshot. The JSON
+has ``bits``, ``descriptors`` and ``thresholds``, one of which holds the parameters of the domain
+(all are null for a user-defined domain), ``names``, ``config``, and ``bytes``, the size of the
+snapshot.
 """
 
 from __future__ import annotations
@@ -39,12 +40,12 @@ class MemoryStore:
     ----------
     slot_bytes : int
     snapshot : bytes
-        What the first slot begins with.
+        Initial content of the first slot.
     """
 
     def __init__(self, slot_bytes: int, snapshot: bytes = b"") -> None:
         self._slots = np.zeros((2, slot_bytes), np.uint8)
-        # A longer one than any of this agent's cannot be whole.
+        # A snapshot longer than a slot is not one of this agent: truncated, it fails its checksum.
         first = np.frombuffer(snapshot, np.uint8)[:slot_bytes]
         self._slots[0, : len(first)] = first
         self._memory = _native.ShimMemory(self._slots.ctypes.data, self._slots.nbytes)
@@ -54,13 +55,13 @@ class MemoryStore:
         )
 
     def peek(self) -> tuple[int, _native.SnapshotInfo]:
-        """Look at the newest snapshot: the library's status, and what it is."""
+        """Return the library's status and a description of the newest snapshot."""
         info = _native.SnapshotInfo()
         status = _native.call.rlvc_snapshot_peek(ctypes.byref(self.native), ctypes.byref(info))
         return int(status), info
 
     def newest(self) -> bytes:
-        """Give the newest snapshot."""
+        """Return the newest snapshot."""
         status, info = self.peek()
         if status != _native.OK:
             raise SnapshotError(_native.status_text(status))
@@ -68,14 +69,14 @@ class MemoryStore:
 
 
 def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
-    """Write an agent's file beside its place, and then move it there.
+    """Write an agent's file: to a temporary file first, which then replaces it.
 
     Parameters
     ----------
     file : str or Path
     agent : Agent
     names : sequence of str
-        What each bit says.
+        Names of the bits or components.
 
     Raises
     ------
@@ -114,21 +115,21 @@ def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes
     Returns
     -------
     tuple
-        The domain (None: one's own), the config, what each bit says, the snapshot.
+        The domain (None: user-defined), the config, the names of the bits, the snapshot.
 
     Raises
     ------
     StoreError
         The file cannot be read.
     SnapshotError
-        It is no such file, or is damaged.
+        It is not such a file, or is corrupt.
     """
     try:
         content = Path(file).read_bytes()
     except OSError as error:
         raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
     if not content.startswith(_MAGIC):
-        raise SnapshotError(f"{file}: is no agent's file")
+        raise SnapshotError(f"{file}: not the file of an agent")
     line, _, snapshot = content[len(_MAGIC) :].partition(b"\n")
     try:
         head: dict[str, Any] = json.loads(line)
@@ -142,7 +143,7 @@ def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes
         elif head.get("thresholds") is not None:
             domain = Thresholds(*head["thresholds"])
     except (ValueError, KeyError, TypeError, ctypes.ArgumentError) as error:
-        raise SnapshotError(f"{file}: is damaged: its head cannot be read ({error})") from error
+        raise SnapshotError(f"{file}: damaged: the header is not valid ({error})") from error
     if len(snapshot) != count:
-        raise SnapshotError(f"{file}: is damaged: {len(snapshot)} bytes of {count} are there")
+        raise SnapshotError(f"{file}: damaged: {len(snapshot)} bytes of {count}")
     return domain, config, names, snapshot

@@ -33,8 +33,8 @@ class Bits(Domain):
 
     Notes
     -----
-    A percept is bool [bits], or packed: bytes or uint8 [ceil(bits / 8)], with bit i in bit i % 8 of byte
-    i // 8 (bit 0 is the lowest). Source: ``core/include/rlvc/bits.h``.
+    A percept is bool [bits], or packed: bytes or uint8 [ceil(bits / 8)], with bit i in bit i % 8 of
+    byte i // 8 (bit 0 is the lowest). Source: ``core/include/rlvc/bits.h``.
     """
 
     def __init__(self, bits: int) -> None:

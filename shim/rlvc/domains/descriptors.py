@@ -18,8 +18,8 @@ from .domain import Percept
 class Descriptors(BuiltinDomain):
     """Percepts of local descriptors: the vectors at a picture's interest points (sections 3 and 6.2).
 
-    A feature is a vector with a radius. A percept exhibits it if one of the percept's vectors is within
-    the radius.
+    A feature is a vector with a radius. A percept exhibits it if one of the percept's vectors is
+    within the radius.
 
     Parameters
     ----------

@@ -41,9 +41,9 @@ class Domain(abc.ABC):
     - ``detect(percepts, features)`` replaces calls of ``exhibits``. It takes percepts
       [n, *percept_shape] and features [m], and returns bool [n, m].
     - ``oracle(percepts, below)`` replaces the search over ``candidates``. It takes percepts
-      [n, *percept_shape], sorted by ascending target, and returns the feature that best explains the
-      partition into percepts[:below] and percepts[below:], and the number of features it compared; or
-      None if no feature does.
+      [n, *percept_shape], sorted by ascending target, and returns the feature that best explains
+      the partition into percepts[:below] and percepts[below:], and the number of features it
+      compared; or None if no feature does.
 
     Source: ``core/include/rlvc/domain.h``.
     """

@@ -22,8 +22,8 @@ class Thresholds(BuiltinDomain):
     components : int
         Length of a percept, [1, 1024].
     cutpoints : int
-        Maximum number of cutpoints c for each component, at quantiles of the class's values, [1, 65535].
-        0: every midpoint between neighbouring values.
+        Maximum number of cutpoints c for each component, at quantiles of the class's values, [1,
+        65535]. 0: every midpoint between neighbouring values.
     oblique : bool
         Whether to also use oblique tests x[i] + w x[j] > c; needs at most 64 components.
 
@@ -35,8 +35,8 @@ class Thresholds(BuiltinDomain):
     Notes
     -----
     A percept is float32 [components], each element in [-1e15, 1e15]; others, such as NaN, raise
-    :class:`~rlvc.errors.PerceptError`. A feature has the fields
-    ``cutpoint``, ``slope``, ``component`` and ``other``. Source: ``core/include/rlvc/thresholds.h``.
+    :class:`~rlvc.errors.PerceptError`. A feature has the fields ``cutpoint``, ``slope``,
+    ``component`` and ``other``. Source: ``core/include/rlvc/thresholds.h``.
     """
 
     _function = "rlvc_thresholds_domain"

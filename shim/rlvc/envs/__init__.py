@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The paper's mazes as Gymnasium environments: ``rlvc/BinaryGridworld-v0``, ``rlvc/TiledGridworld-v0``.
 
-They play in the maze of ``examples/gridworld``, as the tool ``run_gridworld`` does. ``import rlvc.envs``
-registers them.
+They play in the maze of ``examples/gridworld``, as the tool ``run_gridworld`` does. ``import
+rlvc.envs`` registers them.
 """
 
 try:

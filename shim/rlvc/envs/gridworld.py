@@ -141,8 +141,8 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
 class BinaryGridworld(Gridworld[npt.NDArray[np.int8]]):
     """The Binary Gridworld (section 6.1): a maze whose cells are seen as strings of bits.
 
-    An observation is MultiBinary: x, lowest bit first; distractors, drawn anew each time; y, lowest bit
-    first. See :class:`Gridworld` for the rest.
+    An observation is MultiBinary: x, lowest bit first; distractors, drawn anew each time; y, lowest
+    bit first. See :class:`Gridworld` for the rest.
 
     Parameters
     ----------

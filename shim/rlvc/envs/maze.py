@@ -23,8 +23,8 @@ class Maze:
     Parameters
     ----------
     text : str or None
-        A line for each row from the top: ``#`` wall, ``.`` free, ``*`` exit. None: the maze of section
-        6.1, Sutton's, of 9 x 6 cells.
+        A line for each row from the top: ``#`` wall, ``.`` free, ``*`` exit. None: the maze of
+        section 6.1, Sutton's, of 9 x 6 cells.
 
     Attributes
     ----------

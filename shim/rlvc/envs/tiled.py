@@ -19,21 +19,22 @@ class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
     """The Tiled Gridworld (section 6.2): a maze in whose cells objects lie, seen as pictures.
 
     An observation is a Box of uint8 [height, width, 3], red first: a picture of the object in the
-    agent's cell, from one of its angles at random; black at the exit. See :class:`Gridworld` for the
-    rest. An :class:`rlvc.vision.Eye` makes percepts of it.
+    agent's cell, from one of its angles at random; black at the exit. See :class:`Gridworld` for
+    the rest. An :class:`rlvc.vision.Eye` makes percepts of it.
 
     Parameters
     ----------
     maze : str, Path or None
         A maze's text, such as :data:`SMALL`, or a file with it; None is Sutton's, of 46 cells.
     pictures : ndarray, str, Path or None
-        An array of uint8 [objects, height, width, 3] or [objects, views, height, width, 3]; or a folder
-        such as that of COIL-100; None renders objects. The two last need the vision module:
+        An array of uint8 [objects, height, width, 3] or [objects, views, height, width, 3]; or a
+        folder such as that of COIL-100; None renders objects. The two last need the vision module:
         :func:`rlvc.objects.find` reads and renders.
     angles : sequence of int
         In degrees, from which objects are seen; of no meaning for an array.
     placement : int or None
-        Of which objects lie where: a number puts them at random, with that seed; None in their order.
+        Of which objects lie where: a number puts them at random, with that seed; None in their
+        order.
     slip : float
         Probability that a move goes astray, in one of the three other directions.
     render_mode : {"ansi"} or None

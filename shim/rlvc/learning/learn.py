@@ -125,31 +125,32 @@ def learn(
     interactions : int
         How many to have.
     encoder : object or None
-        Turns observations into percepts: it has ``encode(observation) -> bytes`` and ``bits``, or the
-        ``domain`` that the percepts are of, as :class:`rlvc.vision.Eye` has. None:
-        an :class:`~rlvc.encode.Encoder` for the environment's space.
+        Turns observations into percepts: it has ``encode(observation) -> bytes`` and ``bits``, or
+        the ``domain`` that the percepts are of, as :class:`rlvc.vision.Eye` has. None: an
+        :class:`~rlvc.encode.Encoder` for the environment's space.
     every : int or None
         Interactions from one learning step to the next. None: a hundredth of all, at least 100.
     seed : int or None
         Of the environment and of all choices: the same seed gives the same tree. None: any.
     thresholds : int
-        For each element of a Box, at most so many cutpoints are looked at in a class; 0: all there are.
+        For each element of a Box, at most so many cutpoints are looked at in a class; 0: all there
+        are.
     leaves : int or None
-        Learn by trials (:mod:`rlvc.trials`): what acts is a policy of at most so many leaves, made of
-        the agent's values, and the one that earned most is kept. A learning step comes after each
-        trial, and not ``every`` so many interactions; after a random beginning (1000 interactions, or
-        a tenth of all) nothing explores but the trials. In the last quarter nothing is learnt; in each
-        episode the best so far acts, so that what was good by luck is found out. 0: no trials. None: 12
-        where percepts are real numbers and there is one environment, else 0. Trials need both, and are
-        not for the criterion of returns.
+        Learn by trials (:mod:`rlvc.trials`): what acts is a policy of at most so many leaves, made
+        of the agent's values, and the one that earned most is kept. A learning step comes after
+        each trial, and not ``every`` so many interactions; after a random beginning (1000
+        interactions, or a tenth of all) nothing explores but the trials. In the last quarter
+        nothing is learnt; in each episode the best so far acts, so that what was good by luck is
+        found out. 0: no trials. None: 12 where percepts are real numbers and there is one
+        environment, else 0. Trials need both, and are not for the criterion of returns.
     progress : bool
         Whether to show a progress bar, with classes, return and refinements.
     callback : callable or None
         Called with the run after each learning step, and each episode of the last quarter where
         learning is by trials; if it returns True, learning ends.
     **config
-        Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most a
-        million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with trials,
+        Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most
+        a million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with trials,
         ``min_samples`` 64. Where the world changes, a smaller ``capacity`` forgets sooner what was.
 
     Returns

@@ -79,10 +79,10 @@ def _impurity(weight: Reals) -> Any:
 def shrink(percepts: Reals, values: Reals, leaves: int) -> SmallPolicy:
     """Make a small policy that loses as little as can be of what is at stake, by a greedy search.
 
-    Each percept wants the action of the greatest value, by the square root of how much that is above
-    the second: by as much itself, what goes before a fall would take all leaves, and none be left for
-    what keeps one far from falling. The leaf is split, and the cutpoint taken, by which the impurity
-    of these wishes falls most.
+    Each percept wants the action of the greatest value, by the square root of how much that is
+    above the second: by as much itself, what goes before a fall would take all leaves, and none be
+    left for what keeps one far from falling. The leaf is split, and the cutpoint taken, by which
+    the impurity of these wishes falls most.
 
     Parameters
     ----------

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Small policies on real numbers, and trials that find a good one.
 
-Of real numbers a tree never knows enough: each new class makes values a little truer, and the policy
-of a class-level model that is nearly right may be a bad one. So a small tree is made of the agent's
-values (:func:`shrink`), it is this tree that acts, and what it earns decides (:class:`Trials`). Of many
-that are tried for a few episodes the best may be one that was lucky; so it is tried again in the end.
+Of real numbers a tree never knows enough: each new class makes values a little truer, and the
+policy of a class-level model that is nearly right may be a bad one. So a small tree is made of the
+agent's values (:func:`shrink`), it is this tree that acts, and what it earns decides
+(:class:`Trials`). Of many that are tried for a few episodes the best may be one that was lucky; so
+it is tried again in the end.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ class Trials:
     """Which policy acts, and which has done best.
 
     A policy is tried for a few episodes, and no longer than its mean return is at least that of the
-    best so far. Then the next is made. The best is the one with the greatest mean return, of which a
-    little is taken off for doubt, the less the more episodes it was tried for.
+    best so far. Then the next is made. The best is the one with the greatest mean return, of which
+    a little is taken off for doubt, the less the more episodes it was tried for.
     """
 
     def __init__(self) -> None:

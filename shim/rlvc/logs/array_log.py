@@ -36,9 +36,9 @@ def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
     Parameters
     ----------
     arrays : dict
-        ``observations`` [sum(T + 1), ...], ``actions`` [sum(T)], ``rewards``, ``terminated``, and if
-        they are known ``truncated`` and ``exploited``. Or ``next_observations`` beside observations
-        [sum(T), ...].
+        ``observations`` [sum(T + 1), ...], ``actions`` [sum(T)], ``rewards``, ``terminated``, and
+        if they are known ``truncated`` and ``exploited``. Or ``next_observations`` beside
+        observations [sum(T), ...].
     where : str
         What to call it in errors.
 

@@ -58,8 +58,8 @@ def from_records(path: str | Path) -> Log:
     Parameters
     ----------
     path : str or Path
-        Where the power was lost in the middle of a record, that is passed over, and the rest is used:
-        the episode is truncated there.
+        Where the power was lost in the middle of a record, that is passed over, and the rest is
+        used: the episode is truncated there.
 
     Returns
     -------

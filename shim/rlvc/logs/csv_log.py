@@ -22,11 +22,11 @@ def from_csv(path: str | Path, columns: Sequence[str] | None = None) -> Log:
     Parameters
     ----------
     path : str or Path
-        With the columns ``action``, ``reward``, ``terminated``, perhaps ``truncated``, ``exploited`` and
-        ``episode``, and others, which are the observation: what was seen before the action. What an
-        interaction led to is the observation of the next line. A line without an action only says
-        what was seen at the end of an episode. An interaction that is not terminated and of which
-        the file does not say what it led to is left out.
+        With the columns ``action``, ``reward``, ``terminated``, perhaps ``truncated``,
+        ``exploited`` and ``episode``, and others, which are the observation: what was seen before
+        the action. What an interaction led to is the observation of the next line. A line without
+        an action only says what was seen at the end of an episode. An interaction that is not
+        terminated and of which the file does not say what it led to is left out.
     columns : sequence of str or None
         Those of the observation. None: all that have no other meaning, in the order of the file.
 

@@ -153,8 +153,8 @@ def learn_from(
     encoder : object or None
         As for :func:`rlvc.learn`.
     domain : Domain, int or None
-        Of the percepts in a controller's log; a number means :class:`~rlvc.Bits` of so many bits. None:
-        all their bits.
+        Of the percepts in a controller's log; a number means :class:`~rlvc.Bits` of so many bits.
+        None: all their bits.
     thresholds : int
         For each number of an observation, at most.
     steps : int

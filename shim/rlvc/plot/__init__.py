@@ -10,14 +10,14 @@ All functions take the same parameters:
 ``file``
     Where to save the figure: a .png or a .svg. None: it is not saved.
 ``objects``
-    The pictures of the Tiled Gridworld: the ``objects`` of its environment. None: they are read from
-    the folder that the report names, or rendered; this needs the vision module.
+    The pictures of the Tiled Gridworld: the ``objects`` of its environment. None: they are read
+    from the folder that the report names, or rendered; this needs the vision module.
 
 They return the figure, and raise :class:`~rlvc.errors.RunError` if the source lacks a member or the
 file is neither a .png nor a .svg.
 
-The colours are those of the cividis map and of Okabe and Ito's palette, which colour-blind people can
-tell apart. No information is in colour alone.
+The colours are those of the cividis map and of Okabe and Ito's palette, which colour-blind people
+can tell apart. No information is in colour alone.
 """
 
 from __future__ import annotations

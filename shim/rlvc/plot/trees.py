@@ -189,8 +189,8 @@ def features(
 ) -> Figure:
     """Draw the tree of an agent on pictures: each test is a picture with its point circled (figure 5).
 
-    Pictures without the feature go down, those with it go right. Beside each class are up to six of its
-    objects. Needs ``tree``, ``tests``, ``cell`` and ``objects``.
+    Pictures without the feature go down, those with it go right. Beside each class are up to six of
+    its objects. Needs ``tree``, ``tests``, ``cell`` and ``objects``.
     """
     report = need(reports(source)[0], "tests", "tree", "cell", "objects")
     return save(_Drawing(report, pictures_of(report, objects)).figure, file)

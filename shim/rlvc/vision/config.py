@@ -29,12 +29,13 @@ class VisionConfig:
     ----------
     descriptor : {"sift-upright", "sift", "orb", "invariants", "sqrt-invariants"}
         What stands in a point's vector: SIFT, its window not turned, or turned to the point's own
-        direction; ORB; the published colour differential invariants of first order, or those with the
-        signed square root of their terms of second degree.
+        direction; ORB; the published colour differential invariants of first order, or those with
+        the signed square root of their terms of second degree.
     points : int
         P, the most points of a picture, [1, 1000]; the strongest are kept.
     radius : int
-        In pixels: a point's response exceeds all others in the square of side 2 radius + 1, [1, 31].
+        In pixels: a point's response exceeds all others in the square of side 2 radius + 1, [1,
+        31].
     form : {"float", "int8"}
         How a number of a vector stands in the percept.
     normalise : bool

@@ -64,16 +64,16 @@ class Metric(Owned):
         ----------
         pictures : iterable of ndarray of uint8, [height, width] or [height, width, 3]
         objects : sequence of int or None
-            What is to be seen in each. Pictures of one object are not asked whether they exhibit each
-            other's features when tau is sought. None: something else in each.
+            What is to be seen in each. Pictures of one object are not asked whether they exhibit
+            each other's features when tau is sought. None: something else in each.
         pairs : iterable of (ndarray, ndarray, {"copies", "views"})
-            Two pictures of the same, for the metrics of ``change`` and ``discriminant``: the second is
-            the first in other light, noise or the like (of one size), or a neighbouring view.
+            Two pictures of the same, for the metrics of ``change`` and ``discriminant``: the second
+            is the first in other light, noise or the like (of one size), or a neighbouring view.
         config : VisionConfig or str
             A str means the defaults for that descriptor.
         kind : {"plain", "covariance", "change", "discriminant"} or None
-            tau alone; Mahalanobis's distance; by what changes within the pairs; or likewise, on the axes
-            along which vectors differ most. None: plain for SIFT and ORB, else covariance.
+            tau alone; Mahalanobis's distance; by what changes within the pairs; or likewise, on the
+            axes along which vectors differ most. None: plain for SIFT and ORB, else covariance.
         share : float
             tau is such that of the other objects' pictures this share exhibits a feature, (0, 1).
         order : {"rgb", "bgr"}
