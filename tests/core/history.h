@@ -7,6 +7,7 @@
 #ifndef RLVC_TESTS_HISTORY_H
 #define RLVC_TESTS_HISTORY_H
 
+#include "block.h"
 #include "samples/replay.h"
 #include "base/rng.h"
 
@@ -125,13 +126,13 @@ static inline void history_compare(const history *list, const rlvc_replay *repla
 
 /* A ring with room for `capacity` interactions, in memory that lasts until the next is made. */
 static inline void history_init(history *list, rlvc_replay *replay, uint32_t capacity) {
-    static uint64_t block[HISTORY_MAX * 2u];
+    static uint64_t block[HISTORY_MAX * 2u + 64u];
     static const history empty;
     rlvc_arena arena = {(unsigned char *)block, 0};
     rlvc_config config;
     memset(&config, 0, sizeof config);
     config.capacity = capacity;
-    memset(block, 0xa5, sizeof block);
+    block_fill(block, 0xa5, sizeof block);
     rlvc_replay_carve(replay, &arena, &config, sizeof(uint32_t));
     assert_true(arena.used <= sizeof block);
     *list = empty;

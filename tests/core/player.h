@@ -5,6 +5,7 @@
 #ifndef RLVC_TESTS_PLAYER_H
 #define RLVC_TESTS_PLAYER_H
 
+#include "block.h"
 #include "faulty.h"
 #include "gridworld.h"
 #include "rlvc/agent.h"
@@ -89,7 +90,7 @@ static inline void player_enter_world(player *p, int form) {
 
 /* Makes the agent that p->config asks for. */
 static inline void player_init(player *p) {
-    memset(p->block, CANARY, sizeof p->block);
+    block_fill(p->block, CANARY, sizeof p->block);
     assert_int_equal(rlvc_agent_size(&p->config, &p->domain, &p->bytes), RLVC_OK);
     assert_true(p->bytes <= sizeof p->block);
     assert_int_equal(rlvc_agent_init(&p->config, &p->domain, p->block, p->bytes, &p->agent),
@@ -98,13 +99,13 @@ static inline void player_init(player *p) {
 }
 
 static inline void player_save(player *p) {
-    memcpy(p->saved, p->block, sizeof p->block);
+    block_copy(p->saved, p->block, sizeof p->block);
     p->saved_world = p->world;
     p->saved_playing = p->playing;
 }
 
 static inline void player_restore(player *p) {
-    memcpy(p->block, p->saved, sizeof p->block);
+    block_copy(p->block, p->saved, sizeof p->block);
     p->world = p->saved_world;
     p->playing = p->saved_playing;
     p->faulty.calls = 0;
@@ -114,10 +115,9 @@ static inline void player_restore(player *p) {
 
 /* Fails unless every byte, also of what lies behind the agent's, is as it was saved. */
 static inline void player_unchanged(const player *p, const char *after) {
-    const unsigned char *now = (const unsigned char *)p->block;
-    for (size_t i = 0; i < sizeof p->block; i++)
-        if (now[i] != p->saved[i])
-            fail_msg("byte %u of %u differs after %s", (unsigned)i, (unsigned)p->bytes, after);
+    size_t i = block_difference(p->block, p->saved, sizeof p->block);
+    if (i < sizeof p->block)
+        fail_msg("byte %u of %u differs after %s", (unsigned)i, (unsigned)p->bytes, after);
 }
 
 static inline void player_begin(player *p) {

@@ -30,7 +30,7 @@ static inline rlvc_status load(player *to, const rlvc_store *store) {
     to->bytes = p.bytes;
     to->faulty = p.faulty;
     to->domain.ctx = &to->faulty;
-    memset(to->block, CANARY, to->bytes + 64u);
+    block_fill(to->block, CANARY, to->bytes + 64u);
     rlvc_status status =
         rlvc_load(&to->config, &to->domain, to->block, to->bytes, store, &to->agent);
     assert_true((status == RLVC_OK) == (to->agent != NULL));

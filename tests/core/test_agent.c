@@ -95,7 +95,7 @@ static void test_exact_memory(void **state) {
         assert_int_equal(rlvc_agent_size(&p.config, &p.domain, &p.bytes), RLVC_OK);
         if (p.bytes + RLVC_ALIGNMENT > sizeof p.block)
             continue;
-        memset(p.block, CANARY, sizeof p.block);
+        block_fill(p.block, CANARY, sizeof p.block);
         player_save(&p);
         for (size_t wrong = 0; wrong < 3u; wrong++) {
             agent = (rlvc_agent *)p.block;

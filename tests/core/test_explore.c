@@ -8,13 +8,14 @@
 
 #include <cmocka.h>
 
+#include "block.h"
 #include "explore/explore.h"
 
 #define CLASSES 3u
 #define ACTIONS 4u
 #define DRAWS 40000u
 
-static uint64_t block[64];
+static uint64_t block[256];
 static rlvc_explorer explorer;
 
 static void make(void) {

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "block.h"
 #include "rlvc/fewest.h"
 #include "base/rng.h"
 
@@ -72,7 +73,7 @@ static rlvc_status solve(const problem *p, rlvc_fewest_tree *tree) {
     size_t bytes = 0;
     assert_int_equal(rlvc_fewest_size(&p->task, &bytes), RLVC_OK);
     assert_true(bytes + sizeof *memory <= sizeof memory);
-    memset(memory, CANARY, bytes + sizeof *memory);
+    block_fill(memory, CANARY, bytes + sizeof *memory);
     const rlvc_status status = rlvc_fewest(&p->task, memory, bytes, tree);
     for (size_t i = 0; i < sizeof *memory; i++)
         assert_int_equal(((const unsigned char *)memory)[bytes + i], CANARY);

@@ -79,14 +79,14 @@ static void test_budgets_do_not_matter(void **state) {
         player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
         player_result_of(&p, &expected);
         assert_true(player_stats(&p).classes > 1u); /* or there is nothing to see */
-        memcpy(other.block, p.block, sizeof p.block);
+        block_copy(other.block, p.block, sizeof p.block);
         for (uint32_t j = 0; j < 10u; j++) {
             player_restore(&p);
             player_learn(&p, j < 6u ? budgets[j] : 0, j < 6u ? NULL : &rng);
             player_result_of(&p, &got);
             assert_int_equal(got.bytes, expected.bytes);
             assert_memory_equal(got.text, expected.text, expected.bytes);
-            assert_memory_equal(p.block, other.block, sizeof p.block);
+            assert_true(block_equal(p.block, other.block, sizeof p.block));
         }
     }
 }
@@ -130,18 +130,18 @@ static void test_every_callback_fails(void **state) {
         player_restore(&p);
         player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
         uint64_t calls = p.faulty.calls;
-        memcpy(other.block, p.block, sizeof p.block);
+        block_copy(other.block, p.block, sizeof p.block);
         assert_true(calls > 50u);
         for (uint64_t n = 1; n <= calls; n++) {
             learn_with_failure(n);
-            if (memcmp(p.block, other.block, sizeof p.block) != 0)
+            if (!block_equal(p.block, other.block, sizeof p.block))
                 fail_msg("another result after callback %u failed", (unsigned)n);
         }
         /* A sample is looked at by all features of a block at once: so many calls in a row must
          * succeed. */
         for (uint64_t n = p.config.features_at_once + 1u; n < 11u; n++) {
             learn_with_failures(n, n % 2u == 0 ? RLVC_BUDGET_UNBOUNDED : 97);
-            assert_memory_equal(p.block, other.block, sizeof p.block);
+            assert_true(block_equal(p.block, other.block, sizeof p.block));
         }
     }
 }
@@ -237,13 +237,13 @@ static void test_slices_of_what_follows(void **state) {
     player_save(&p);
     player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
     assert_true(player_stats(&p).classes > 1u);
-    memcpy(other.block, p.block, sizeof p.block);
+    block_copy(other.block, p.block, sizeof p.block);
     for (uint32_t budget = RLVC_BUDGET_MIN; budget < RLVC_BUDGET_MIN + 8u; budget++) {
         player_restore(&p);
         do {
             assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
         } while (!progress.done);
-        assert_memory_equal(p.block, other.block, sizeof p.block);
+        assert_true(block_equal(p.block, other.block, sizeof p.block));
     }
 }
 
@@ -268,7 +268,7 @@ static void prepare_gate(int form) {
     player_save(&p);
     player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
     assert_int_equal(player_stats(&p).classes, 2);
-    memcpy(other.block, p.block, sizeof p.block);
+    block_copy(other.block, p.block, sizeof p.block);
 }
 
 static void test_slices_of_the_gate(void **state) {
@@ -282,7 +282,7 @@ static void test_slices_of_the_gate(void **state) {
                 assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
                 assert_true(progress.work <= budget);
             } while (!progress.done);
-            assert_memory_equal(p.block, other.block, sizeof p.block);
+            assert_true(block_equal(p.block, other.block, sizeof p.block));
         }
     }
 }
@@ -295,7 +295,7 @@ static void test_callbacks_of_the_gate_fail(void **state) {
         assert_true(calls > 256u); /* each sample comes to the gate at least once */
         for (uint64_t n = 1; n <= calls; n++) {
             learn_with_failure(n);
-            if (memcmp(p.block, other.block, sizeof p.block) != 0)
+            if (!block_equal(p.block, other.block, sizeof p.block))
                 fail_msg("%s: another result after callback %u failed", form_names[form],
                          (unsigned)n);
         }

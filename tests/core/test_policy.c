@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "block.h"
 #include "faulty.h"
 #include "rlvc/fewest.h"
 #include "rlvc/rlvc.h"
@@ -67,14 +68,14 @@ static rlvc_policy *compact(rlvc_agent *agent, const rlvc_policy_config *config,
     size_t bytes = 0;
     assert_int_equal(rlvc_policy_size(agent, config, &bytes), RLVC_OK);
     assert_true(bytes + sizeof *place <= sizeof place);
-    memset(place, CANARY, bytes + sizeof *place);
-    memcpy(saved, block, sizeof block);
+    block_fill(place, CANARY, bytes + sizeof *place);
+    block_copy(saved, block, sizeof block);
     assert_int_equal(rlvc_policy_make(agent, config, place, bytes, &policy, info), RLVC_OK);
-    assert_memory_equal(saved, block, sizeof block);
+    assert_true(block_equal(saved, block, sizeof block));
     for (size_t i = 0; i < sizeof *place; i++)
         assert_int_equal(((const unsigned char *)place)[bytes + i], CANARY);
-    memset((unsigned char *)place + info->bytes, CANARY,
-           bytes - info->bytes); /* not needed any more */
+    block_fill((unsigned char *)place + info->bytes, CANARY,
+               bytes - info->bytes); /* not needed any more */
     return policy;
 }
 

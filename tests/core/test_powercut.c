@@ -43,7 +43,7 @@ static void image_of(uint32_t cycle, unsigned char *image) {
     rlvc_store store = medium_store(&spare, &p.config, &p.domain, 0);
     assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
     assert_int_equal(load(&other, &store), RLVC_OK);
-    memcpy(image, other.block, p.bytes);
+    block_copy(image, other.block, p.bytes);
     other.world = p.world;
     other.playing = p.playing;
     live_on(&other, cycle, &got);
@@ -58,8 +58,8 @@ static int cut_at(const rlvc_store *store, uint32_t cycle, uint64_t cut, uint32_
     assert_true(status == RLVC_OK || status == RLVC_E_STORE);
     medium_revive(&m);
     assert_int_equal(load(&other, store), RLVC_OK);
-    const int is_newer = memcmp(other.block, newer, p.bytes) == 0;
-    if (!is_newer && (status == RLVC_OK || memcmp(other.block, older, p.bytes) != 0))
+    const int is_newer = block_equal(other.block, newer, p.bytes);
+    if (!is_newer && (status == RLVC_OK || !block_equal(other.block, older, p.bytes)))
         fail_msg("cycle %u, cut at byte %u: the agent loaded is neither of the two",
                  (unsigned)cycle, (unsigned)cut);
     *early += is_newer && status != RLVC_OK;

@@ -25,7 +25,7 @@ static rlvc_aliasing aliasing;
 static rlvc_sample sample[CAPACITY];
 static uint16_t priority[CLASSES];
 static uint32_t slots; /* of the sample array, as the solver is told */
-static uint64_t values_block[256];
+static uint64_t values_block[512];
 static uint64_t scratch[RLVC_SORT_SCRATCH_BYTES / sizeof(uint64_t)];
 
 /* The same by plain counting: column CLASSES is where an episode terminated. */
@@ -360,7 +360,7 @@ static void test_seeking_briefly(void **state) {
 
 enum { SIDE = 64, CELLS = SIDE * SIDE, MOVES = 4 * CELLS };
 
-static uint64_t maze_block[3u * MOVES];
+static uint64_t maze_block[3u * MOVES + 256u];
 static rlvc_sample maze_model[2u * MOVES + CELLS];
 static uint16_t maze_priority[CELLS];
 

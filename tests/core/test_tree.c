@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "block.h"
 #include "rlvc/bits.h"
 #include "base/rng.h"
 #include "tree/tree.h"
@@ -22,7 +23,7 @@ static rlvc_tree tree;
 static void make_tree(void) {
     rlvc_arena arena = {(unsigned char *)block, 0};
     assert_int_equal(rlvc_bits_domain(BITS, &bits), RLVC_OK);
-    memset(block, 0xa5, sizeof block);
+    block_fill(block, 0xa5, sizeof block);
     rlvc_tree_carve(&tree, &arena, CLASSES, bits.feature_bytes);
     assert_true(arena.used <= sizeof block);
     rlvc_tree_clear(&tree);

@@ -9,12 +9,13 @@
 
 #include <cmocka.h>
 
+#include "block.h"
 #include "tree/values.h"
 
 #define CLASSES 3u
 #define ACTIONS 3u
 
-static uint64_t block[64];
+static uint64_t block[256];
 static rlvc_values values;
 
 static void make(uint8_t untried) {
@@ -25,7 +26,7 @@ static void make(uint8_t untried) {
     config.actions = ACTIONS;
     config.untried = untried;
     config.optimistic_value = 5.0f;
-    memset(block, 0xa5, sizeof block);
+    block_fill(block, 0xa5, sizeof block);
     rlvc_values_carve(&values, &arena, &config);
     assert_true(arena.used <= sizeof block);
     rlvc_values_clear(&values);

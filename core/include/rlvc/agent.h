@@ -155,7 +155,11 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
 
 /* An upper bound of rlvc_agent_size as a constant expression, for static arrays; at most
  * RLVC_AGENT_FIXED_BYTES above it. */
+#ifdef RLVC_RED_ZONES
+#define RLVC_AGENT_FIXED_BYTES 4096u /* builds for tests keep the arrays apart */
+#else
 #define RLVC_AGENT_FIXED_BYTES 1024u
+#endif
 /* The formatter takes a parenthesis before an operator for a cast. */
 /* clang-format off */
 #define RLVC_ROUND_UP_8(n) (((size_t)(n) + 7u) / 8u * 8u)

@@ -61,9 +61,12 @@ rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain
         return RLVC_E_MEMORY;
     rlvc_arena arena = {(unsigned char *)memory, 0};
     rlvc_agent *made = memory;
+    const rlvc_config copied_config = *config; /* they may lie in the block */
+    const rlvc_domain copied_domain = *domain;
+    RLVC_UNPOISON(memory, needed);
     memset(made, 0, sizeof *made);
-    made->config = *config;
-    made->domain = *domain;
+    made->config = copied_config;
+    made->domain = copied_domain;
     carve(made, &arena);
     rlvc_tree_clear(&made->tree);
     rlvc_values_clear(&made->values);

@@ -2,11 +2,26 @@
 /* Carving the caller's block into arrays.
  *
  * The same carving code runs twice: without a block, it only counts (rlvc_agent_size); with one, it
- * places. So the size that is asked for and the size that is used cannot differ. */
+ * places. So the size that is asked for and the size that is used cannot differ.
+ *
+ * Within one block an overflow from one array into the next is memory that AddressSanitizer knows
+ * nothing of. So tests are built with RLVC_RED_ZONES: then a zone that must not be touched follows
+ * each array, and the padding before it is part of it. */
 #ifndef RLVC_SRC_ARENA_H
 #define RLVC_SRC_ARENA_H
 
 #include "rlvc/agent.h"
+
+#ifdef RLVC_RED_ZONES
+#include <sanitizer/asan_interface.h>
+#define RLVC_RED_ZONE_BYTES 64u
+#define RLVC_POISON(memory, bytes) ASAN_POISON_MEMORY_REGION(memory, bytes)
+#define RLVC_UNPOISON(memory, bytes) ASAN_UNPOISON_MEMORY_REGION(memory, bytes)
+#else
+#define RLVC_RED_ZONE_BYTES 0u
+#define RLVC_POISON(memory, bytes) ((void)0)
+#define RLVC_UNPOISON(memory, bytes) ((void)0)
+#endif
 
 typedef struct rlvc_arena {
     unsigned char *base; /* the block, aligned to RLVC_ALIGNMENT; null to count only */
@@ -16,10 +31,14 @@ typedef struct rlvc_arena {
 /* The next `count` items of `size` bytes, the whole rounded up to RLVC_ALIGNMENT; null when only
  * counting. O(1). */
 static inline void *rlvc_arena_carve(rlvc_arena *arena, uint64_t count, uint64_t size) {
-    void *place = arena->base ? arena->base + (size_t)arena->used : NULL;
-    uint64_t mask = RLVC_ALIGNMENT - 1u;
-    arena->used += (count * size + mask) & ~mask;
-    return place;
+    uint64_t begin = arena->used, mask = RLVC_ALIGNMENT - 1u;
+    arena->used += ((count * size + mask) & ~mask) + RLVC_RED_ZONE_BYTES;
+    if (!arena->base)
+        return NULL;
+    RLVC_UNPOISON(arena->base + (size_t)begin, (size_t)(count * size));
+    RLVC_POISON(arena->base + (size_t)(begin + count * size),
+                (size_t)(arena->used - begin - count * size));
+    return arena->base + (size_t)begin;
 }
 
 #endif

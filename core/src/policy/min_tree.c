@@ -482,14 +482,15 @@ rlvc_status rlvc_fewest(const rlvc_fewest_task *task, void *memory, size_t bytes
     if (status != RLVC_OK)
         return status;
     rlvc_arena arena = {(unsigned char *)memory, 0};
+    const rlvc_fewest_task copied = *task; /* it may lie in the block */
     fewest s;
     memset(&s, 0, sizeof s);
-    s.task = task;
+    s.task = &copied;
     carve(&s, &arena);
     clear(&s);
-    for (uint32_t i = 0; i < task->rows; i++) {
+    for (uint32_t i = 0; i < copied.rows; i++) {
         s.order[i] = i;
-        while (s.actions < RLVC_FEWEST_ACTIONS_MAX && task->allowed[i] >> s.actions != 0)
+        while (s.actions < RLVC_FEWEST_ACTIONS_MAX && copied.allowed[i] >> s.actions != 0)
             s.actions++;
     }
     const uint8_t exact = grow(&s);

@@ -265,6 +265,7 @@ static rlvc_status choose(maker *m, rlvc_policy_info *info) {
         m->task.row = m->row;
         m->task.allowed = m->allowed;
         (void)rlvc_fewest(&m->task, m->scratch, (size_t)m->scratch_bytes, &found);
+        RLVC_UNPOISON(m->scratch, (size_t)m->scratch_bytes);
     }
     info->classes = agent->tree.classes;
     info->collapsed = collapsed.mixed + 1u;
@@ -323,7 +324,8 @@ rlvc_status rlvc_policy_make(rlvc_agent *agent, const rlvc_policy_config *config
         return RLVC_E_NULL;
     if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
         return RLVC_E_MEMORY;
-    (void)lay_out(&m, agent, config, memory, &needed);
+    const rlvc_policy_config copied = *config; /* it may lie in the block */
+    (void)lay_out(&m, agent, &copied, memory, &needed);
     m.made.domain = agent->domain;
     m.made.actions = agent->config.actions;
     *m.policy = m.made;
