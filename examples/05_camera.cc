@@ -22,12 +22,17 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace {
 
@@ -163,39 +168,69 @@ class Eye {
     std::vector<uint32_t> percept_;
 };
 
-// A file with room for two snapshots.
-class SnapshotFile {
+// Reads a file, and nothing else: a FIFO would make it wait.
+std::string read_file(const std::string &name) {
+    std::ifstream file;
+    if (fs::is_regular_file(name)) {
+        file.open(name, std::ios::binary);
+    }
+    if (!file.is_open()) {
+        throw std::runtime_error(name + ": cannot be read");
+    }
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Writes a file under a name that nobody can foresee and then gives it its own, so that there is
+// always the old file or the new one. Links and devices are refused; permissions are kept.
+void replace_file(const std::string &name, const std::string &content) {
+    struct stat there;
+    const bool exists = lstat(name.c_str(), &there) == 0;
+    std::string beside = name + ".XXXXXX";
+    const int file = exists && !S_ISREG(there.st_mode) ? -1 : mkstemp(beside.data());
+    if (file < 0) {
+        throw std::runtime_error(name + ": cannot be written");
+    }
+    const mode_t mode = exists ? there.st_mode & 07777 : 0644;
+    size_t done = 0;
+    for (ssize_t n = 1; n > 0 && done<content.size(); done += n> 0 ? n : 0) {
+        n = write(file, content.data() + done, content.size() - done);
+    }
+    const bool whole = done == content.size() && fchmod(file, mode) == 0 && fsync(file) == 0;
+    if (close(file) != 0 || !whole || std::rename(beside.c_str(), name.c_str()) != 0) {
+        std::remove(beside.c_str());
+        throw std::runtime_error(name + ": cannot be written");
+    }
+}
+
+// Room in memory for two snapshots.
+class Snapshots {
   public:
-    SnapshotFile(const std::string &name, uint32_t slot_bytes, std::ios::openmode mode)
-        : file_(name, mode | std::ios::binary) {
-        if (!file_) {
-            throw std::runtime_error(name + ": cannot be opened");
-        }
-        store_.ctx = &file_;
+    Snapshots(uint32_t slot_bytes, const std::string &first = "") : bytes_(first) {
+        bytes_.resize(2 * static_cast<size_t>(slot_bytes));
+        store_.ctx = bytes_.data();
         store_.slot_bytes = slot_bytes;
         store_.read = [](void *ctx, uint32_t offset, void *buffer, uint32_t bytes) {
-            auto *file = static_cast<std::fstream *>(ctx);
-            std::fill_n(static_cast<char *>(buffer), bytes, '\0'); // what was never written
-            file->clear();
-            file->seekg(offset);
-            file->read(static_cast<char *>(buffer), bytes);
-            file->clear();
+            std::memcpy(buffer, static_cast<char *>(ctx) + offset, bytes);
             return 0;
         };
         store_.write = [](void *ctx, uint32_t offset, const void *buffer, uint32_t bytes) {
-            auto *file = static_cast<std::fstream *>(ctx);
-            file->seekp(offset);
-            return file->write(static_cast<const char *>(buffer), bytes) ? 0 : -1;
+            std::memcpy(static_cast<char *>(ctx) + offset, buffer, bytes);
+            return 0;
         };
-        store_.sync = [](void *ctx) { return static_cast<std::fstream *>(ctx)->flush() ? 0 : -1; };
     }
 
     const rlvc_store *store() const {
         return &store_;
     }
 
+    std::string newest() const {
+        rlvc_snapshot_info info;
+        check(rlvc_snapshot_peek(&store_, &info), "");
+        return bytes_.substr(static_cast<size_t>(info.slot) * store_.slot_bytes, info.bytes);
+    }
+
   private:
-    std::fstream file_;
+    std::string bytes_;
     rlvc_store store_{};
 };
 
@@ -218,7 +253,6 @@ rlvc_config config_for(const rlvc_domain &domain, uint32_t actions, uint32_t int
     return config;
 }
 
-// Both must be known to make sense of a snapshot, so they are kept beside it.
 uint32_t slot_bytes(const rlvc_config &config, const rlvc_domain &domain) {
     uint32_t bytes = 0;
     check(rlvc_snapshot_size(&config, &domain, &bytes), "");
@@ -281,11 +315,11 @@ void learn(const std::string &model, const std::vector<std::string> &sources) {
     check(rlvc_learn(mind.agent, RLVC_BUDGET_UNBOUNDED, &progress), "");
     rlvc_vision_error error{};
     check(rlvc_metric_save(eye.metric(), (model + ".metric").c_str(), &error), error);
-    const uint32_t numbers[2] = {actions, interactions};
-    std::ofstream(model + ".numbers") << numbers[0] << ' ' << numbers[1] << '\n';
-    const SnapshotFile file(model + ".agent", slot_bytes(config, eye.domain()),
-                            std::ios::in | std::ios::out | std::ios::trunc);
-    check(rlvc_save(mind.agent, file.store()), model + ".agent: ");
+    const Snapshots snapshots(slot_bytes(config, eye.domain()));
+    check(rlvc_save(mind.agent, snapshots.store()), "");
+    // The config must be known to make sense of a snapshot, so its numbers stand before it.
+    replace_file(model + ".agent", std::to_string(actions) + " " + std::to_string(interactions) +
+                                       "\n" + snapshots.newest());
     rlvc_statistics statistics;
     check(rlvc_stats(mind.agent, &statistics), "");
     std::printf("%u frames, %u interactions, %u classes\n", static_cast<unsigned>(lessons.size()),
@@ -321,18 +355,22 @@ void draw(cv::Mat &frame, const Eye &eye, const rlvc_agent *agent, const void *p
 void run(const std::string &model, const std::string &name, const std::string &overlay) {
     rlvc_vision_error error{};
     rlvc_metric *metric = nullptr;
-    uint32_t actions = 0, interactions = 0;
     check(rlvc_metric_load((model + ".metric").c_str(), &metric, &error), error);
     Eye eye(metric);
-    if (!(std::ifstream(model + ".numbers") >> actions >> interactions)) {
-        throw std::runtime_error(model + ".numbers: cannot be read");
+    const std::string file = model + ".agent", content = read_file(file);
+    const size_t line = content.find('\n');
+    unsigned actions = 0, interactions = 0;
+    if (line == std::string::npos ||
+        std::sscanf(content.c_str(), "%9u %9u\n", &actions, &interactions) != 2) {
+        throw std::runtime_error(file + ": is no agent of this program");
     }
     const rlvc_config config = config_for(eye.domain(), actions, interactions);
     Agent mind(config, eye.domain());
-    const SnapshotFile file(model + ".agent", slot_bytes(config, eye.domain()), std::ios::in);
-    check(
-        rlvc_load(&config, &eye.domain(), mind.memory.get(), mind.bytes, file.store(), &mind.agent),
-        model + ".agent: ");
+    const uint32_t bytes = slot_bytes(config, eye.domain());
+    const Snapshots snapshots(bytes, content.substr(line + 1, bytes));
+    check(rlvc_load(&config, &eye.domain(), mind.memory.get(), mind.bytes, snapshots.store(),
+                    &mind.agent),
+          file + ": ");
     Source source(name);
     cv::Mat frame;
     for (int i = 0; source.next(frame); i++) {

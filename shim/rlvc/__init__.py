@@ -10,6 +10,8 @@ reinforcement learning".
 # above it in this list (tests/shim/test_rooms.py).
 #
 #     errors     one exception for each cause
+#     checks     numbers that a caller gives
+#     files      reading files, and replacing them as a whole
 #     _native    the C library: loaded, checked, declared
 #     domains    percepts and features (section 5)
 #     agent      the agent, its configuration, snapshots, policies

@@ -6,10 +6,9 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from pathlib import Path
 from typing import Any
 
-from . import __version__
+from . import __version__, files
 from .agent.agent import Agent
 from .agent.config import CHOICES
 from .agent.snapshot import read_file
@@ -121,7 +120,10 @@ def _environment(name: str) -> Any:
 
 
 def _write(file: str, text: str) -> None:
-    Path(file).write_text(text, encoding="utf-8")
+    if file == "-":
+        print(text, end="")
+    else:
+        files.replace(file, text.encode())
 
 
 def _learn(arguments: argparse.Namespace) -> None:

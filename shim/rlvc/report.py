@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import files
 from .errors import RunError
 
 if TYPE_CHECKING:
@@ -166,11 +167,15 @@ def read(path: str | Path) -> dict[str, Any]:
         It cannot be read, is no report, or is of another version.
     """
     try:
-        report = json.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
+        report = json.loads(files.read(path).decode())
+    except OSError as error:
+        raise RunError(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
     except json.JSONDecodeError as error:
         raise RunError(f"{path}: line {error.lineno}: is no JSON: {error.msg}") from error
+    except (RecursionError, ValueError) as error:
+        raise RunError(f"{path}: is no report of a run: {error}") from error
     if not isinstance(report, dict) or "version" not in report:
         raise RunError(f"{path}: is no report of a run")
     if report["version"] != VERSION:

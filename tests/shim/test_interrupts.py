@@ -42,6 +42,7 @@ def ctrl_c(library):
 
     With number 0 there is none, and the result is how many bytecodes there are.
     """
+
     def start(frame, _event, _argument):
         if not frame.f_code.co_filename.startswith(WATCHED):
             return None
@@ -67,6 +68,13 @@ def ctrl_c(library):
     signal.signal(signal.SIGINT, before)
 
 
+def unclosed(test):
+    """A file may have been opened just before Ctrl-C; Python closes it and says so."""
+    for warning in ("ResourceWarning", "pytest.PytestUnraisableExceptionWarning"):
+        test = pytest.mark.filterwarnings(f"ignore::{warning}")(test)
+    return test
+
+
 def chosen(count, most):
     """Of so many bytecodes the first ones, and others drawn from all."""
     first = range(1, min(count, most) + 1)
@@ -89,7 +97,7 @@ def test_learning_with_a_domain_of_ones_own(walk, ctrl_c, make):
         agent.close()
 
 
-@pytest.mark.parametrize("make", [lambda: 3, Corridor])
+@pytest.mark.parametrize("make", [lambda: 3, Corridor], ids=["bits", "own"])
 @pytest.mark.parametrize("what", ["print", "snapshot", "predict", "act", "many"])
 def test_calls_that_change_nothing(walk, ctrl_c, make, what):
     agent = walk(make(), capacity=120)
@@ -112,6 +120,24 @@ def test_calls_that_change_nothing(walk, ctrl_c, make, what):
     agent.close()
 
 
+@unclosed
+def test_saving(walk, ctrl_c, tmp_path, monkeypatch):
+    file = tmp_path / "agent"
+    old, new = walk(capacity=120), walk(capacity=130)
+    contents = []
+    for agent in (new, old):
+        agent.save(file)
+        contents.append(file.read_bytes())
+    for nameless in (True, False):
+        if not nameless:
+            monkeypatch.delattr(os, "O_TMPFILE", raising=False)
+        for number in range(1, ctrl_c(0, lambda: new.save(file)) + 1, 5):
+            old.save(file)
+            ctrl_c(number, lambda: new.save(file))
+            assert os.listdir(tmp_path) == ["agent"], number
+            assert file.read_bytes() in contents, number
+
+
 def test_what_was_done_is_what_the_last_finished_act_said(walk, ctrl_c):
     """An interrupted act() may have chosen another action, which is not taken for the one before."""
     for number in range(1, 30):
@@ -126,8 +152,17 @@ def test_what_was_done_is_what_the_last_finished_act_said(walk, ctrl_c):
         assert agent._choice.action == choice.action
 
 
-def test_real_signals(walk):
-    """Signals at random moments in learn, export_c and print."""
+@unclosed
+def test_real_signals(walk, tmp_path):
+    """Signals at random moments in learn, save, export_c and print."""
+
+    def saved(agent):
+        agent.save(tmp_path / "agent")
+        return agent.snapshot()
+
+    def right_file(snapshot):
+        loaded = rlvc.Agent.load(tmp_path / "agent", Corridor())
+        return os.listdir(tmp_path) == ["agent"] and loaded.snapshot() == snapshot
 
     def interrupt(*_):
         fired.append(1)
@@ -140,6 +175,7 @@ def test_real_signals(walk):
     wanted = whole.print("json"), bits.export_c()
     calls = [  # the call, whether its result is right, and how long it takes at most
         (lambda agent: agent.statistics.step or agent.learn().done, bool, 2e-2),
+        (saved, right_file, 5e-2),
         (lambda agent: agent.print("json"), wanted[0].__eq__, 1e-3),
         (lambda _: bits.export_c(), wanted[1].__eq__, 3e-4),
     ]

@@ -8,10 +8,12 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace rlvc {
@@ -132,6 +134,10 @@ void check_kind(const rlvc_vision_config &config, uint32_t kind) {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE *)>;
 
+[[noreturn]] void refuse_kind(const char *path) {
+    throw Failure(RLVC_VISION_E_FILE, std::string(path) + " is no regular file");
+}
+
 // The name of the folder's entry has to last, too.
 void sync_folder_of(const std::string &path) {
     const size_t slash = path.rfind('/');
@@ -182,6 +188,11 @@ rlvc_metric metric_of(const char *text, size_t bytes) {
 }
 
 std::string read_file(const char *path) {
+    struct stat there;
+    if (stat(path, &there) != 0)
+        refuse_file("open", path);
+    if (!S_ISREG(there.st_mode))
+        refuse_kind(path); // opening a FIFO would wait
     const File file(std::fopen(path, "rb"), std::fclose);
     if (file == nullptr)
         refuse_file("open", path);
@@ -200,12 +211,21 @@ std::string read_file(const char *path) {
 }
 
 void replace_file(const char *path, const std::string &text) {
-    const std::string beside = std::string(path) + ".new";
-    File file(std::fopen(beside.c_str(), "wb"), std::fclose);
-    if (file == nullptr)
-        refuse_file("open", beside.c_str());
+    struct stat there;
+    const bool exists = lstat(path, &there) == 0;
+    if (exists && !S_ISREG(there.st_mode))
+        refuse_kind(path);
+    std::string beside = std::string(path) + ".XXXXXX"; // a name that nobody can foresee
+    const int made = mkstemp(&beside[0]);
+    if (made < 0)
+        refuse_file("write", path);
+    const mode_t mask = umask(0);
+    umask(mask);
+    const mode_t mode = exists ? there.st_mode & 07777 : 0666 & ~mask;
+    File file(fdopen(made, "wb"), std::fclose);
     const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
-                         std::fflush(file.get()) == 0 && fsync(fileno(file.get())) == 0;
+                         std::fflush(file.get()) == 0 && fchmod(made, mode) == 0 &&
+                         fsync(made) == 0;
     const bool closed = std::fclose(file.release()) == 0;
     if (!written || !closed || std::rename(beside.c_str(), path) != 0) {
         const int cause = errno;

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..domains.domain import Domain, Percept
-from ..errors import RangeError, ReenteredError, RewardError, SnapshotError
+from ..errors import Error, RangeError, ReenteredError, RewardError, SnapshotError
 from .batch import Batch, native_log
 from .config import Config
 from .inspect import Queries
@@ -490,8 +490,8 @@ class Agent(Queries):
             raise SnapshotError(f"{file}: the agent has a user-defined domain: pass it as domain")
         try:
             return cls.restore(domain, config, snapshot)
-        except SnapshotError as error:
-            raise SnapshotError(f"{file}: {error}") from None
+        except Error as error:
+            raise type(error)(f"{file}: {error}") from None
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the agent; its domain must be one that can be pickled."""

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Snapshots in memory and in files.
 
-The file of an agent is a line ``rlvc agent 1``, a line of JSON and the library's snapshot. The JSON
-has ``bits``, ``descriptors`` and ``thresholds``, one of which holds the parameters of the domain
-(all are null for a user-defined domain), ``names``, ``config``, and ``bytes``, the size of the
-snapshot.
+The file of an agent is a line ``rlvc agent 2``, a line of JSON, the library's snapshot, and the
+CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``, ``descriptors`` and
+``thresholds``, one of which holds the parameters of the domain (all are null for a user-defined
+domain), ``names``, ``config``, and ``bytes``, the size of the snapshot. Version 1, which has no
+CRC-32, can be read too.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import json
-import os
+import re
+import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,12 +27,14 @@ from ..domains.descriptors import Descriptors
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
 from ..errors import SnapshotError, StoreError
+from ..files import read, replace, tidy
 from .config import Config
 
 if TYPE_CHECKING:
     from .agent import Agent
 
-_MAGIC = b"rlvc agent 1\n"
+_MAGIC = re.compile(rb"rlvc agent (\d{1,9})\n")
+_VERSION = 2
 
 
 class MemoryStore:
@@ -69,7 +73,7 @@ class MemoryStore:
 
 
 def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
-    """Write an agent's file: to a temporary file first, which then replaces it.
+    """Write an agent's file. A failure leaves the old file.
 
     Parameters
     ----------
@@ -81,7 +85,7 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
     Raises
     ------
     StoreError
-        The file cannot be written.
+        The file cannot be written, or is a link, a folder, a FIFO or a device.
     """
     snapshot = agent.snapshot()
     domain = agent.domain
@@ -89,20 +93,13 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
         "bits": domain.bits if isinstance(domain, Bits) else None,
         "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
         "thresholds": domain.parameters if isinstance(domain, Thresholds) else None,
-        "names": list(names),
+        "names": [str(name) for name in names],
         "config": dataclasses.asdict(agent.config),
         "bytes": len(snapshot),
     }
-    temporary = Path(f"{file}.part")
-    try:
-        with temporary.open("wb") as out:
-            out.write(_MAGIC + json.dumps(head).encode() + b"\n" + snapshot)
-            out.flush()
-            os.fsync(out.fileno())
-        temporary.replace(file)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise StoreError(f"{file}: cannot be written: {error.strerror}") from error
+    text = json.dumps(head, default=lambda number: number.item())  # numpy's numbers
+    content = b"rlvc agent %d\n%b\n%b" % (_VERSION, text.encode(), snapshot)
+    replace(file, content + zlib.crc32(content).to_bytes(4, "little"))
 
 
 def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes]:
@@ -125,25 +122,45 @@ def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes
         It is not such a file, or is corrupt.
     """
     try:
-        content = Path(file).read_bytes()
+        tidy(file)
+        content = read(file)
     except OSError as error:
         raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
-    if not content.startswith(_MAGIC):
-        raise SnapshotError(f"{file}: not the file of an agent")
-    line, _, snapshot = content[len(_MAGIC) :].partition(b"\n")
     try:
+        line, _, snapshot = _unwrapped(content).partition(b"\n")
         head: dict[str, Any] = json.loads(line)
-        config = Config(**head["config"])
+        domain, config = _domain_of(head), Config(**head["config"])
         names, count = [str(name) for name in head["names"]], head["bytes"]
-        domain: Domain | None = None
-        if head["bits"] is not None:
-            domain = Bits(head["bits"])
-        elif head.get("descriptors") is not None:
-            domain = Descriptors(*head["descriptors"])
-        elif head.get("thresholds") is not None:
-            domain = Thresholds(*head["thresholds"])
-    except (ValueError, KeyError, TypeError, ctypes.ArgumentError) as error:
+    except SnapshotError as error:
+        raise SnapshotError(f"{file}: {error}") from None
+    except Exception as error:  # JSON of any depth, and members of any kind
         raise SnapshotError(f"{file}: damaged: the header is not valid ({error})") from error
     if len(snapshot) != count:
         raise SnapshotError(f"{file}: damaged: {len(snapshot)} bytes of {count}")
     return domain, config, names, snapshot
+
+
+def _unwrapped(content: bytes) -> bytes:
+    """Return what stands between the first line and the CRC-32, if that is right."""
+    magic = _MAGIC.match(content)
+    if magic is None:
+        raise SnapshotError("not the file of an agent")
+    version = int(magic[1])
+    if not 1 <= version <= _VERSION:
+        raise SnapshotError(f"version {version}; this package reads versions 1 to {_VERSION}")
+    if version == 1:
+        return content[magic.end() :]
+    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
+        raise SnapshotError("damaged: the checksum is wrong")
+    return content[magic.end() : -4]
+
+
+def _domain_of(head: dict[str, Any]) -> Domain | None:
+    """Make the domain whose parameters are in a header."""
+    if head["bits"] is not None:
+        return Bits(head["bits"])
+    if head.get("descriptors") is not None:
+        return Descriptors(*head["descriptors"])
+    if head.get("thresholds") is not None:
+        return Thresholds(*head["thresholds"])
+    return None

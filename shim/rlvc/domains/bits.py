@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..errors import ConfigError, PerceptError
+from ..checks import whole
+from ..errors import PerceptError
 from .callbacks import Guard
 from .domain import Domain, Percept
 
@@ -38,8 +39,7 @@ class Bits(Domain):
     """
 
     def __init__(self, bits: int) -> None:
-        if not 1 <= bits <= _native.BITS_MAX:
-            raise ConfigError(f"bits: {bits} is not in [1, {_native.BITS_MAX}]")
+        bits = whole("bits", bits, 1, _native.BITS_MAX)
         super().__init__(np.uint8, ((bits + 7) // 8,), np.uint16, bits)
         self.bits = bits
 

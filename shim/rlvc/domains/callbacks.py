@@ -129,9 +129,7 @@ class Callbacks:
             )
         return features.tobytes()
 
-    def detect(
-        self, address: int, first: int, n: int, features: int, m: int, columns: int
-    ) -> int:
+    def detect(self, address: int, first: int, n: int, features: int, m: int, columns: int) -> int:
         """``rlvc_domain.detect``."""
         domain = self.domain
         assert domain.detect is not None
@@ -160,9 +158,7 @@ class Callbacks:
         try:
             proposed, among = answer
             count = int(among.__index__())
-            record = (
-                np.array([proposed]).astype(self.feature_dtype, casting="same_kind").tobytes()
-            )
+            record = np.array([proposed]).astype(self.feature_dtype, casting="same_kind").tobytes()
         except (AttributeError, TypeError, ValueError) as error:
             raise DomainError(
                 f"oracle() returned {answer!r:.80}, expected (feature, considered) or None"

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import real, whole
 from ..errors import ConfigError, PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
@@ -62,6 +63,11 @@ class Descriptors(BuiltinDomain):
         draws: int = 8,
         margin: float = 1.8,
     ) -> None:
+        points = whole("points", points, 1, _native.DESCRIPTORS_POINTS_MAX)
+        dimensions = whole("dimensions", dimensions, 1, _native.DESCRIPTORS_DIMENSIONS_MAX)
+        candidates = whole("candidates", candidates, 1, _native.DESCRIPTORS_CANDIDATES_MAX)
+        draws = whole("draws", draws, 1, _native.DESCRIPTORS_DRAWS_MAX)
+        radius, margin = real("radius", radius), real("margin", margin)
         self.parameters = (points, dimensions, radius, form, candidates, draws, margin)
         if form not in ("float", "int8"):
             raise ConfigError(f"form: {form!r} is not one of float, int8")

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import flag, whole
 from ..errors import PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
@@ -42,6 +43,9 @@ class Thresholds(BuiltinDomain):
     _function = "rlvc_thresholds_domain"
 
     def __init__(self, components: int, cutpoints: int = 15, oblique: bool = False) -> None:
+        components = whole("components", components, 1, _native.THRESHOLDS_COMPONENTS_MAX)
+        cutpoints = whole("cutpoints", cutpoints, 0, _native.THRESHOLDS_CUTPOINTS_MAX)
+        oblique = flag("oblique", oblique)
         self.parameters = (components, cutpoints, oblique)
         self._build(_native.Thresholds(components, cutpoints, oblique))
         self.components = components

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
-from .. import _native
+from .. import _native, files
 from ..errors import ConfigError, MazeError
 from .maze import Maze
 
@@ -38,7 +38,7 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
     ) -> None:
         if isinstance(maze, Path):
             try:
-                maze = maze.read_text(encoding="utf-8")
+                maze = files.read(maze).decode()
             except (OSError, UnicodeDecodeError) as error:
                 raise MazeError(f"{maze}: cannot be read: {error}") from error
         if render_mode not in (None, "ansi"):

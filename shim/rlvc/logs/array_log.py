@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import LogError
+from ..files import open_file
 from ..learning.interact import ends_of
 from .log import Log, checked
 
@@ -117,12 +118,9 @@ def from_npz(path: str | Path) -> Log:
     LogError
         It cannot be read, or is damaged.
     """
-    import zipfile
-    import zlib
-
     try:
-        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
+        with open_file(path) as file, np.load(file, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error, AttributeError) as error:
+    except Exception as error:  # of zipfile, of what it unpacks with, of numpy's parser
         raise LogError(f"{path}: cannot be read as NPZ: {error}") from error
     return from_arrays(arrays, str(path))

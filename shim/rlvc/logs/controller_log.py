@@ -12,6 +12,7 @@ import numpy as np
 from .. import _native
 from ..agent.results import CHOICE
 from ..errors import LogError
+from ..files import open_file, read
 from .log import Log
 
 _MAGIC = b"\xa5\x01"  # the mark of a record, and that it is a header
@@ -29,7 +30,7 @@ def is_records(path: str | Path) -> bool:
     bool
     """
     try:
-        with open(path, "rb") as file:
+        with open_file(path) as file:
             return file.read(len(_MAGIC)) == _MAGIC
     except OSError:
         return False
@@ -72,9 +73,9 @@ def from_records(path: str | Path) -> Log:
         It cannot be read, or is damaged elsewhere; the text says from which byte on.
     """
     try:
-        content = Path(path).read_bytes()
+        content = read(path)
     except OSError as error:
-        raise LogError(f"{path}: cannot be read: {error}") from error
+        raise LogError(f"{path}: cannot be read: {error.strerror}") from error
     records = _native.ShimRecords()
     _read(content, records, path)
     count, size = records.interactions, records.percept_bytes

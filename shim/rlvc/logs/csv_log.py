@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import LogError
+from ..files import open_file
 from ..learning.interact import ends_of
 from .log import Log, checked
 
@@ -40,7 +42,7 @@ def from_csv(path: str | Path, columns: Sequence[str] | None = None) -> Log:
         It cannot be read, or a line is damaged; the text says which, and what is wrong.
     """
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with io.TextIOWrapper(open_file(path), encoding="utf-8", newline="") as file:
             reader = csv.reader(file, strict=True)
             head = next(reader, [])
             rows = [(reader.line_num, row) for row in reader if row]

@@ -60,7 +60,12 @@ def read(log: Any, columns: Sequence[str] | None = None) -> Log:
             return from_csv(log, columns)
         if isinstance(log, Path) or Path(log).exists():
             raise LogError(f"{log}: neither .npz nor .csv, nor a controller's log")
-    return from_minari(log)
+    if isinstance(log, str) or hasattr(log, "iterate_episodes"):
+        return from_minari(log)
+    raise LogError(
+        "a log is a dict of arrays, the path of a file, or a Minari data set or its name, and not "
+        f"{type(log).__name__}"
+    )
 
 
 def _space_of(log: Log) -> Numbers:

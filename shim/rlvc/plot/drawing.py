@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -13,6 +14,7 @@ import numpy.typing as npt
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from .. import files
 from .. import objects as _objects
 from .. import report as _report
 from ..agent.agent import Agent
@@ -104,7 +106,12 @@ def save(figure: Figure, file: str | Path | None) -> Figure:
         # No date and fixed identifiers: the same run makes the same file.
         with mpl.rc_context({"svg.hashsalt": "rlvc", "svg.fonttype": "path"}):
             metadata = {"Date": None} if str(file).lower().endswith(".svg") else {}
-            figure.savefig(file, dpi=150, bbox_inches="tight", facecolor=PAPER, metadata=metadata)
+            drawn = io.BytesIO()
+            form = Path(file).suffix.lower()[1:]
+            figure.savefig(
+                drawn, format=form, dpi=150, bbox_inches="tight", facecolor=PAPER, metadata=metadata
+            )
+        files.replace(file, drawn.getvalue())
     return figure
 
 

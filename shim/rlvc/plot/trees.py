@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from matplotlib.figure import Figure
 
+from .. import files
 from ..errors import RunError
 from ..objects import Objects
 from .drawing import (
@@ -74,7 +75,7 @@ def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
             raise RunError(
                 "saving a tree needs the program dot: on Debian, apt-get install graphviz"
             ) from None
-        Path(file).write_bytes(picture)
+        files.replace(file, picture)
     return graph
 
 

@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from .. import _native
+from .. import _native, files
 from ..errors import (
     Error,
+    MetricError,
     RangeError,
+    StoreError,
 )
 from .config import VisionConfig, config_of
 from .library import Order, Owned, Picture, call, library, native_picture
@@ -138,7 +139,14 @@ class Metric(Owned):
         MetricError
             It is no metric, or is damaged; the text says where.
         """
-        return cls("rlvc_metric_load", os.fsencode(file))
+        try:
+            text = files.read(file)
+        except OSError as error:
+            raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
+        try:
+            return cls.read(text)
+        except MetricError as error:
+            raise MetricError(f"{file}: {error}") from None
 
     @classmethod
     def read(cls, text: bytes) -> Metric:
@@ -171,7 +179,7 @@ class Metric(Owned):
         StoreError
             The file cannot be written.
         """
-        call("rlvc_metric_save", self._handle, os.fsencode(file))
+        files.replace(file, self.write())
 
     def write(self) -> bytes:
         """Give the metric as JSON.

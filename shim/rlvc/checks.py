@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""Numbers that a caller gives: numpy's are as good as Python's, and anything else is refused by name."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .errors import ConfigError, Error
+
+
+def whole(name: str, value: Any, least: int, most: int, error: type[Error] = ConfigError) -> int:
+    """Take a whole number.
+
+    Parameters
+    ----------
+    name : str
+        What to call it in the error.
+    value : int, or integer of numpy
+    least, most : int
+        Its range.
+    error : type
+        What to raise.
+
+    Returns
+    -------
+    int
+    """
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = int(value.__index__())
+    except (AttributeError, TypeError):
+        raise error(f"{name}: {value!r:.80} is not a whole number: give an int") from None
+    if not least <= number <= most:
+        raise error(f"{name}: {number:.80g} is not in [{least}, {most}]")
+    return number
+
+
+def real(name: str, value: Any, error: type[Error] = ConfigError) -> float:
+    """Take a finite number: a float, an int, a bool, or an array of one such.
+
+    Parameters
+    ----------
+    name : str
+        What to call it in the error.
+    value : number
+    error : type
+        What to raise.
+
+    Returns
+    -------
+    float
+    """
+    try:
+        if getattr(value, "size", 1) != 1 or isinstance(value, str | bytes):
+            raise TypeError
+        number = float(value.item()) if hasattr(value, "item") else float(value)
+    except (AttributeError, OverflowError, TypeError, ValueError):
+        raise error(f"{name}: {value!r:.80} is not a number: give a float") from None
+    if not math.isfinite(number):
+        raise error(f"{name}: {value!r:.80} is not a finite number")
+    return number
+
+
+def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
+    """Take a truth value: a bool, 0 or 1, or an array of one such.
+
+    Parameters
+    ----------
+    name : str
+        What to call it in the error.
+    value : bool or number
+    error : type
+        What to raise.
+
+    Returns
+    -------
+    bool
+    """
+    if getattr(value, "size", 1) == 1 and hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, bool | int | float) and value in (0, 1):
+        return bool(value)
+    raise error(f"{name}: {value!r:.80} is not a truth value: give True or False")

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+"""Files that are read only if they are files, and that are written as a whole or not at all.
+
+A new file is written without a name where the system can do that, else under a name that nobody can
+foresee. When all of it is on the disk it gets its name, and so replaces the old one at once. Whoever
+writes holds a lock on the new file. A process that is killed loses its lock: the next one that saves, or
+loads an agent, removes what it left behind.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import fcntl
+import os
+import secrets
+import stat
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from .errors import StoreError
+
+_KINDS: tuple[tuple[Callable[[int], bool], str], ...] = (
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISLNK, "a link"),
+    (stat.S_ISFIFO, "a FIFO"),
+    (stat.S_ISSOCK, "a socket"),
+)
+_FDS = "/proc/self/fd"  # where the system shows files without a name
+
+
+def _need_file(mode: int) -> None:
+    """Refuse what is no regular file."""
+    if not stat.S_ISREG(mode):
+        kind = next((kind for test, kind in _KINDS if test(mode)), "a device")
+        raise OSError(errno.EINVAL, f"it is {kind}, not a file")
+
+
+def _name(path: str | Path) -> str:
+    try:
+        name = os.fsdecode(path)
+    except TypeError:
+        raise OSError(errno.EINVAL, "the name of a file is wanted") from None
+    if "\0" in name or not name:
+        raise OSError(errno.EINVAL, "this is no name of a file")
+    return name
+
+
+def open_file(path: str | Path) -> BinaryIO:
+    """Open a regular file to read.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    binary file
+
+    Raises
+    ------
+    OSError
+        It cannot be opened, or is a folder, a FIFO, a device or the like; nothing waits for one.
+    """
+    name = _name(path)
+    _need_file(os.stat(name).st_mode)  # opening a device may have effects
+    file: BinaryIO = _opened(name, os.O_RDONLY | os.O_NONBLOCK)
+    _need_file(os.fstat(file.fileno()).st_mode)
+    return file
+
+
+def read(path: str | Path) -> bytes:
+    """Give what is in a regular file.
+
+    Raises
+    ------
+    OSError
+        As of :func:`open_file`, or it cannot be read.
+    """
+    with open_file(path) as file:
+        return file.read()
+
+
+def replace(path: str | Path, content: bytes) -> None:
+    """Write a file, which is there as a whole or as it was before, whenever the process ends.
+
+    Parameters
+    ----------
+    path : str or Path
+        If the file is there, the new one gets its permissions.
+    content : bytes
+
+    Raises
+    ------
+    StoreError
+        It cannot be written, or is a link, a folder, a FIFO or a device. The old file is still there.
+    """
+    try:
+        _replace(path, content)
+    except OSError as error:
+        raise StoreError(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def _replace(path: str | Path, content: bytes) -> None:
+    where, name = os.path.split(_name(path))
+    folder = os.open(where or ".", os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        mode = None
+        with contextlib.suppress(FileNotFoundError):
+            mode = os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode
+            _need_file(mode)
+        _tidy(folder, name)
+        temporary = _beginning(name) + secrets.token_hex(8)
+        try:
+            with _create(folder, temporary) as file:
+                file.write(content)
+                file.flush()
+                if mode is not None:
+                    os.fchmod(file.fileno(), stat.S_IMODE(mode))
+                os.fsync(file.fileno())
+                if os.fstat(file.fileno()).st_nlink == 0:
+                    here = f"{_FDS}/{file.fileno()}"
+                    os.link(here, temporary, dst_dir_fd=folder, follow_symlinks=True)
+                os.rename(temporary, name, src_dir_fd=folder, dst_dir_fd=folder)
+        except BaseException:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(temporary, dir_fd=folder)
+            raise
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+def tidy(path: str | Path) -> None:
+    """Remove what processes that were killed while they wrote a file left behind beside it."""
+    with contextlib.suppress(OSError):
+        where, name = os.path.split(_name(path))
+        folder = os.open(where or ".", os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            _tidy(folder, name)
+        finally:
+            os.close(folder)
+
+
+def _beginning(name: str) -> str:
+    """How the temporary names begin that belong to a file."""
+    return f".rlvc-{zlib.crc32(os.fsencode(name)):08x}-"
+
+
+def _opened(name: str, flags: int, folder: int | None = None) -> Any:
+    """Open a file by its name in a folder; Python closes it when nobody needs it any more."""
+    mode = "wb" if flags & os.O_WRONLY else "rb"
+
+    def opener(_name: str, _flags: int) -> int:
+        return os.open(name, flags | os.O_CLOEXEC, 0o666, dir_fd=folder)
+
+    return open(name, mode, opener=opener)  # the caller closes it
+
+
+def _create(folder: int, temporary: str) -> BinaryIO:
+    """Make a new file and lock it: without a name if the system can name it later."""
+    if hasattr(os, "O_TMPFILE") and os.path.exists(_FDS):
+        with contextlib.suppress(OSError):
+            file: BinaryIO = _opened(".", os.O_TMPFILE | os.O_WRONLY, folder)
+            _lock(file, fcntl.LOCK_EX)
+            return file
+    while True:
+        file = _opened(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, folder)
+        _lock(file, fcntl.LOCK_EX)
+        if (
+            os.fstat(file.fileno()).st_nlink > 0
+        ):  # else another process tidied it up before the lock
+            return file
+        file.close()
+
+
+def _lock(file: BinaryIO, how: int) -> None:
+    with contextlib.suppress(OSError):  # there are file systems without locks
+        fcntl.flock(file, how)
+
+
+def _tidy(folder: int, name: str) -> None:
+    beginning = _beginning(name)
+    for entry in os.listdir(folder):
+        if not entry.startswith(beginning):
+            continue
+        flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
+        # It may be gone, or its process at work.
+        with contextlib.suppress(OSError), _opened(entry, flags, folder) as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            os.unlink(entry, dir_fd=folder)
