@@ -53,8 +53,8 @@ static inline int player_oracle(void *ctx, const rlvc_samples *samples, uint32_t
             present_below += i < below ? shows : 0u;
         }
         uint32_t absent = samples->count - present, absent_below = below - present_below;
-        float score = rlvc_score(RLVC_SCORE_GAIN, present_below, absent_below,
-                                 present - present_below, absent - absent_below);
+        float score =
+            rlvc_score(present_below, absent_below, present - present_below, absent - absent_below);
         if (score > best) {
             const unsigned char record[2] = {(unsigned char)bit, 0};
             best = score;

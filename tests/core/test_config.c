@@ -59,13 +59,10 @@ static void test_defaults(void **state) {
     assert_int_equal(config.criterion, RLVC_CRITERION_RESIDUAL);
     assert_int_equal(config.score, RLVC_SCORE_GAIN);
     assert_int_equal(config.solver, RLVC_SOLVER_VALUE_ITERATION);
-    assert_int_equal(config.untried, RLVC_UNTRIED_EXCLUDED);
     assert_int_equal(config.continuing, 0);
-    assert_int_equal(config.gate, 0);
-    const float numbers[] = {config.discount,        config.epsilon,   config.alpha,
-                             config.alpha_known,     config.tolerance, config.learning_rate,
-                             config.optimistic_value};
-    const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f, 0.0f};
+    const float numbers[] = {config.discount,    config.epsilon,   config.alpha,
+                             config.alpha_known, config.tolerance, config.learning_rate};
+    const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f};
     assert_memory_equal(numbers, expected, sizeof expected);
 }
 
@@ -119,13 +116,10 @@ static void test_choices(void **state) {
         uint8_t high;
     } choices[] = {
         {"criterion", &config.criterion, RLVC_CRITERION_RESIDUAL},
-        {"score", &config.score, RLVC_SCORE_RANKS},
-        {"solver", &config.solver, RLVC_SOLVER_PRIORITIZED},
-        {"untried", &config.untried, RLVC_UNTRIED_OPTIMISTIC},
+        {"solver", &config.solver, RLVC_SOLVER_SARSA},
         {"continuing", &config.continuing, 1},
         {"successors", &config.successors, 1},
         {"explore", &config.explore, 1},
-        {"gate", &config.gate, 1},
     };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
         for (uint32_t value = 0; value <= UINT8_MAX; value++) {
@@ -133,6 +127,11 @@ static void test_choices(void **state) {
             *choices[i].place = (uint8_t)value;
             expect(value <= choices[i].high ? NULL : choices[i].field, choices[i].field);
         }
+    for (uint32_t value = 0; value <= UINT8_MAX; value++) {
+        make();
+        config.score = (uint8_t)value;
+        expect(value == RLVC_SCORE_GAIN || value == RLVC_SCORE_RANKS ? NULL : "score", "score");
+    }
 }
 
 static void test_numbers(void **state) {
@@ -162,10 +161,6 @@ static void test_numbers(void **state) {
          &config.learning_rate,
          {least, 0.5f, 0.1f, one},
          {zero, beyond_one, nan, -one}},
-        {"optimistic_value",
-         &config.optimistic_value,
-         {zero, most, -most, one},
-         {-beyond, beyond, nan, -infinity}},
     };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         for (int j = 0; j < 4; j++) {
@@ -238,29 +233,13 @@ static void test_ranks(void **state) {
     expect(NULL, "ranks");
     config.capacity++;
     expect("ranks", "ranks of too many");
-    config.score = RLVC_SCORE_CHI2;
-    expect(NULL, "chi-square of many");
+    config.score = RLVC_SCORE_GAIN;
+    expect(NULL, "gain of many");
     domain.oracle = oracle;
-    expect(NULL, "chi-square with an oracle");
+    expect(NULL, "gain with an oracle");
     config.capacity = 1000;
     config.score = RLVC_SCORE_RANKS;
     expect("ranks", "ranks with an oracle");
-}
-
-/* The gate compares the actions of a class, and sets candidates aside. */
-static void test_gate(void **state) {
-    (void)state;
-    make();
-    config.gate = 1;
-    expect(NULL, "the residual criterion");
-    config.criterion = RLVC_CRITERION_RETURNS;
-    expect("gate", "the returns criterion");
-    config.gate = 0;
-    expect(NULL, "no gate");
-    config.criterion = RLVC_CRITERION_RESIDUAL;
-    config.gate = 1;
-    domain.oracle = oracle;
-    expect("gate", "an own oracle");
 }
 
 int main(void) {
@@ -269,7 +248,6 @@ int main(void) {
         cmocka_unit_test(test_counts),     cmocka_unit_test(test_choices),
         cmocka_unit_test(test_numbers),    cmocka_unit_test(test_callbacks),
         cmocka_unit_test(test_successors), cmocka_unit_test(test_ranks),
-        cmocka_unit_test(test_gate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,6 @@
 #include "base/rng.h"
 #include "stats/score.h"
 
-#define KINDS 3
 #define COUNT_MAX (1u << 21)
 #define WORDS_MAX (COUNT_MAX / 64u)
 
@@ -25,7 +24,7 @@ static uint32_t bit_at(const uint64_t *words, uint32_t i) {
     return (uint32_t)(words[i / 64u] >> i % 64u & 1u);
 }
 
-static rlvc_cut sweep(uint32_t count, uint8_t kind, float beat) {
+static rlvc_cut sweep(uint32_t count, float beat) {
     rlvc_cut best = {-1.0f, 0, 0, 0};
     float bar = beat > 0.0f ? beat : 0.0f;
     uint32_t x = 0;
@@ -34,7 +33,7 @@ static rlvc_cut sweep(uint32_t count, uint8_t kind, float beat) {
     for (uint32_t i = 0; i < count; i++) {
         if (bit_at(cuts, i)) {
             uint32_t above = best.present - x;
-            float score = rlvc_score(kind, x, i - x, above, count - i - above);
+            float score = rlvc_score(x, i - x, above, count - i - above);
             if (score > bar) {
                 bar = score;
                 best = (rlvc_cut){score, i, x, best.present};
@@ -46,10 +45,10 @@ static rlvc_cut sweep(uint32_t count, uint8_t kind, float beat) {
 }
 
 /* Budgets of `budget`, or random ones if that is 0. */
-static rlvc_cut scan(uint32_t count, uint8_t kind, float beat, uint32_t budget, uint64_t *work) {
+static rlvc_cut scan(uint32_t count, float beat, uint32_t budget, uint64_t *work) {
     rlvc_scan state;
     *work = 0;
-    rlvc_scan_begin(&state, column, cuts, count, kind, beat);
+    rlvc_scan_begin(&state, column, cuts, count, 0, beat);
     while (!state.done) {
         uint32_t room = budget > 0 ? budget : RLVC_BUDGET_MIN + rlvc_rng_below(&rng, 300u);
         uint32_t used = rlvc_scan_step(&state, room);
@@ -63,17 +62,17 @@ static int same(rlvc_cut a, rlvc_cut b) {
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
-static void check_scan(uint32_t count, uint8_t kind, float beat, const char *what) {
-    rlvc_cut expected = sweep(count, kind, beat);
+static void check_scan(uint32_t count, float beat, const char *what) {
+    rlvc_cut expected = sweep(count, beat);
     const uint32_t budgets[] = {RLVC_BUDGET_UNBOUNDED, RLVC_BUDGET_MIN, 0};
     uint64_t first = 0;
     for (int i = 0; i < 3; i++) {
         uint64_t work;
-        rlvc_cut got = scan(count, kind, beat, budgets[i], &work);
+        rlvc_cut got = scan(count, beat, budgets[i], &work);
         if (!same(got, expected))
-            fail_msg("%s, count %u, kind %u, beat %.9g, budget %u: %.9g at %u (%u of %u), not "
+            fail_msg("%s, count %u, beat %.9g, budget %u: %.9g at %u (%u of %u), not "
                      "%.9g at %u (%u of %u)",
-                     what, count, kind, (double)beat, budgets[i], (double)got.score, got.below,
+                     what, count, (double)beat, budgets[i], (double)got.score, got.below,
                      got.present_below, got.present, (double)expected.score, expected.below,
                      expected.present_below, expected.present);
         first = i == 0 ? work : first;
@@ -85,12 +84,10 @@ static void check_scan(uint32_t count, uint8_t kind, float beat, const char *wha
 /* With nothing to beat; with the best score itself, which must not win again; and with one a hair
  * below it. */
 static void check(uint32_t count, const char *what) {
-    for (uint8_t kind = 0; kind < KINDS; kind++) {
-        float best = sweep(count, kind, -1.0f).score;
-        check_scan(count, kind, -1.0f, what);
-        check_scan(count, kind, best, what);
-        check_scan(count, kind, best * 0.9999999f, what);
-    }
+    float best = sweep(count, -1.0f).score;
+    check_scan(count, -1.0f, what);
+    check_scan(count, best, what);
+    check_scan(count, best * 0.9999999f, what);
 }
 
 /* Every column and every set of cutpoints of up to 8 samples. */
@@ -175,7 +172,7 @@ static void test_many_samples(void **state) {
     for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++) {
         rlvc_rng_seed(&rng, 3u);
         make(shapes[i], COUNT_MAX - 1u, 1u);
-        check_scan(COUNT_MAX - 1u, RLVC_SCORE_GAIN, 0.0f, shape_names[shapes[i]]);
+        check_scan(COUNT_MAX - 1u, 0.0f, shape_names[shapes[i]]);
     }
 }
 
@@ -186,10 +183,10 @@ static void test_passes_over(void **state) {
     uint64_t work;
     rlvc_rng_seed(&rng, 4u);
     make(NOISE, words * 64u, 1u);
-    scan(words * 64u, RLVC_SCORE_GAIN, 1.5e-5f, RLVC_BUDGET_UNBOUNDED, &work);
+    scan(words * 64u, 1.5e-5f, RLVC_BUDGET_UNBOUNDED, &work);
     assert_true(work < 4u * (uint64_t)words);
     make(STEP, words * 64u, 1u);
-    scan(words * 64u, RLVC_SCORE_GAIN, 0.1f, RLVC_BUDGET_UNBOUNDED, &work);
+    scan(words * 64u, 0.1f, RLVC_BUDGET_UNBOUNDED, &work);
     assert_true(work < words + 16u * 70u);
 }
 

@@ -37,8 +37,7 @@ static double value_of(uint32_t class_id) {
     double best = 0.0;
     int any = 0;
     for (uint32_t a = 0; a < ACTIONS; a++)
-        if ((tried[class_id][a] > 0 || p.config.untried == RLVC_UNTRIED_OPTIMISTIC) &&
-            (!any || q[class_id][a] > best)) {
+        if (tried[class_id][a] > 0 && (!any || q[class_id][a] > best)) {
             best = q[class_id][a];
             any = 1;
         }
@@ -117,8 +116,6 @@ static void test_against_the_formulas(void **state) {
     for (uint32_t i = 0; i < 12u; i++) {
         player_enter_world(&p, BATCH);
         p.config.solver = (uint8_t)(RLVC_SOLVER_Q_LEARNING + i % 2u);
-        p.config.untried = (uint8_t)(i / 2u % 2u);
-        p.config.optimistic_value = 20.0f;
         p.config.capacity = i < 4u ? 300 : i < 8u ? 1 : 2;
         p.config.min_samples = 2;
         player_init(&p);

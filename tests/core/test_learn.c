@@ -21,16 +21,19 @@ typedef struct learning {
 } learning;
 
 #define CRITERIA 2u
-#define SOLVERS 5u
-#define SCORES 4u
+#define SOLVERS 4u
+#define SCORES 2u
 #define CASES (CRITERIA * SOLVERS * FORMS)
+
+static const uint8_t scores[SCORES] = {RLVC_SCORE_GAIN, RLVC_SCORE_RANKS};
 
 static learning case_number(uint32_t i) {
     learning made;
     made.criterion = (uint8_t)(i % CRITERIA);
     made.solver = (uint8_t)(i / CRITERIA % SOLVERS);
     made.form = (int)(i / CRITERIA / SOLVERS);
-    made.score = (uint8_t)(i / CRITERIA % (made.form == OWN_ORACLE ? RLVC_SCORE_RANKS : SCORES));
+    made.score = made.form == OWN_ORACLE ? RLVC_SCORE_GAIN
+                                         : scores[(made.solver + (uint32_t)made.form) % SCORES];
     return made;
 }
 
@@ -46,16 +49,13 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.criterion = l->criterion;
     agent->config.solver = l->solver;
     agent->config.score = l->score;
-    agent->config.untried = l->solver % 2u;
     agent->config.epsilon = l->criterion == RLVC_CRITERION_RETURNS ? 0.5f : 0.9f;
     agent->config.explore = l->criterion == RLVC_CRITERION_RESIDUAL; /* directed, or uniform */
     agent->config.capacity = 300;
     agent->config.alpha = 1.0f;
     agent->config.alpha_known = 0.3f;
-    agent->config.successors = l->form != OWN_ORACLE && l->score != RLVC_SCORE_GINI;
+    agent->config.successors = l->form != OWN_ORACLE && l->solver != RLVC_SOLVER_POLICY_ITERATION;
     agent->config.features_at_once = agent->config.successors ? 6 : 2;
-    agent->config.gate = l->criterion == RLVC_CRITERION_RESIDUAL && l->form != OWN_ORACLE &&
-                         l->score == RLVC_SCORE_GAIN;
     player_init(agent);
     for (uint32_t i = 0; i < steps; i++) {
         player_play(agent, 240);
@@ -247,61 +247,6 @@ static void test_slices_of_what_follows(void **state) {
     }
 }
 
-/* ------------------------------------------------------------------ the value gate */
-
-/* A class in which bit 0 tells what each action is worth, and bit 4 which of two is better: the
- * gate sets the one aside and lets the other pass. */
-static void prepare_gate(int form) {
-    player_enter_world(&p, form);
-    p.config.actions = 2;
-    p.config.features_at_once = 4;
-    p.config.gate = 1;
-    player_init(&p);
-    for (uint32_t i = 0; i < 256u; i++) {
-        const unsigned char percept = (unsigned char)(i / 4u);
-        const rlvc_choice choice = {(uint8_t)(i / 2u % 2u), 0};
-        const float reward =
-            (float)(percept & 1u) * 1.5f + (float)((percept >> 4 & 1u) == choice.action);
-        assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
-        assert_int_equal(rlvc_observe(p.agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
-    }
-    player_save(&p);
-    player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
-    assert_int_equal(player_stats(&p).classes, 2);
-    block_copy(other.block, p.block, sizeof p.block);
-}
-
-static void test_slices_of_the_gate(void **state) {
-    (void)state;
-    for (int form = BATCH; form <= ONE_BY_ONE; form++) {
-        prepare_gate(form);
-        for (uint32_t budget = RLVC_BUDGET_MIN; budget < RLVC_BUDGET_MIN + 8u; budget++) {
-            rlvc_progress progress;
-            player_restore(&p);
-            do {
-                assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
-                assert_true(progress.work <= budget);
-            } while (!progress.done);
-            assert_true(block_equal(p.block, other.block, sizeof p.block));
-        }
-    }
-}
-
-static void test_callbacks_of_the_gate_fail(void **state) {
-    (void)state;
-    for (int form = BATCH; form <= ONE_BY_ONE; form++) {
-        prepare_gate(form);
-        const uint64_t calls = p.faulty.calls;
-        assert_true(calls > 256u); /* each sample comes to the gate at least once */
-        for (uint64_t n = 1; n <= calls; n++) {
-            learn_with_failure(n);
-            if (!block_equal(p.block, other.block, sizeof p.block))
-                fail_msg("%s: another result after callback %u failed", form_names[form],
-                         (unsigned)n);
-        }
-    }
-}
-
 /* ------------------------------------------------------------------ forms of one domain */
 
 /* Feature detector or batch detector, and blocks of any size: the same tree. */
@@ -311,7 +256,7 @@ static void test_detectors_and_blocks(void **state) {
     for (uint32_t i = 0; i < 2u * SCORES * 8u; i++) {
         player_enter_world(&p, i % 2u == 0 ? BATCH : ONE_BY_ONE);
         p.config.features_at_once = at_once[i / 2u % 4u];
-        p.config.score = (uint8_t)(i / 8u % SCORES);
+        p.config.score = scores[i / 8u % SCORES];
         p.config.criterion = (uint8_t)(i / (8u * SCORES));
         p.config.epsilon = 0.5f;
         p.config.alpha = 1.0f;
@@ -475,7 +420,7 @@ static void test_classification(void **state) {
         p.domain = bits;
         assert_int_equal(rlvc_config_default(&p.config, &bits, 1), RLVC_OK);
         p.config.criterion = (uint8_t)(i % CRITERIA);
-        p.config.score = (uint8_t)(i / CRITERIA);
+        p.config.score = scores[i / CRITERIA];
         p.config.capacity = 1500;
         p.config.classes = 8;
         p.config.discount = 0.0f;
@@ -524,8 +469,6 @@ int main(void) {
         cmocka_unit_test(test_too_many_candidates),
         cmocka_unit_test(test_candidates_of_what_follows),
         cmocka_unit_test(test_slices_of_what_follows),
-        cmocka_unit_test(test_slices_of_the_gate),
-        cmocka_unit_test(test_callbacks_of_the_gate_fail),
         cmocka_unit_test(test_detectors_and_blocks),
         cmocka_unit_test(test_every_slot_terminated),
         cmocka_unit_test(test_full_tree),

@@ -62,7 +62,7 @@ static double reference(uint32_t count, int plain) {
 static rlvc_cut scan(uint32_t count, uint32_t budget, uint64_t *work) {
     rlvc_scan state;
     *work = 0;
-    rlvc_scan_begin(&state, column, cuts, count, RLVC_SCORE_RANKS, 1e30f);
+    rlvc_scan_begin(&state, column, cuts, count, 1, 1e30f);
     while (!state.done) {
         uint32_t room = budget > 0 ? budget : RLVC_BUDGET_MIN + rlvc_rng_below(&rng, 300u);
         uint32_t used = rlvc_scan_step(&state, room);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scores of 2 x 2 tables against the same formulas in double. */
+/* Scores of 2 x 2 tables against the same formula in double. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,14 +8,10 @@
 
 #include <cmocka.h>
 
-#include "rlvc/agent.h"
 #include "base/rng.h"
 #include "stats/score.h"
 
-#define KINDS 3
 #define ALLOWED ((double)RLVC_SCORE_ERROR / 4.0) /* the rest is a reserve */
-
-static const char *const kind_names[KINDS] = {"gain", "gini", "chi2"};
 
 /* O ln(O / E) - (O - E) over E, where u = (O - E) / E. */
 static double excess(double u) {
@@ -29,7 +25,7 @@ static double excess(double u) {
     return u <= -1.0 ? 1.0 : (1.0 + u) * log1p(u) - u;
 }
 
-static double reference(uint8_t kind, const uint32_t t[4]) {
+static double reference(const uint32_t t[4]) {
     double rows[2] = {(double)t[0] + t[1], (double)t[2] + t[3]};
     double columns[2] = {(double)t[0] + t[2], (double)t[1] + t[3]};
     double total = rows[0] + rows[1];
@@ -37,36 +33,31 @@ static double reference(uint8_t kind, const uint32_t t[4]) {
     double sum = 0.0;
     if (rows[0] * rows[1] * columns[0] * columns[1] <= 0.0)
         return 0.0;
-    if (kind == RLVC_SCORE_GINI)
-        return 2.0 * (double)n / total * (double)n / total / columns[0] / columns[1];
     for (int i = 0; i < 4; i++) {
         double expected = rows[i / 2] * columns[i % 2] / total;
         double u = (i == 0 || i == 3 ? 1.0 : -1.0) * (double)n / total / expected;
-        sum += expected * (kind == RLVC_SCORE_GAIN ? excess(u) : u * u);
+        sum += expected * excess(u);
     }
-    return kind == RLVC_SCORE_GAIN ? sum / (total * log(2.0)) : sum;
+    return sum / (total * log(2.0));
 }
 
-static float score(uint8_t kind, const uint32_t t[4]) {
-    return rlvc_score(kind, t[0], t[1], t[2], t[3]);
+static float score(const uint32_t t[4]) {
+    return rlvc_score(t[0], t[1], t[2], t[3]);
 }
 
-static void check(uint8_t kind, const uint32_t t[4]) {
-    double expected = reference(kind, t);
-    double got = (double)score(kind, t);
+static void check(const uint32_t t[4]) {
+    double expected = reference(t);
+    double got = (double)score(t);
     if (!(fabs(got - expected) <= ALLOWED * expected) || got < 0.0)
-        fail_msg("%s of %u %u / %u %u: %.9g, not %.9g", kind_names[kind], t[0], t[1], t[2], t[3],
-                 got, expected);
+        fail_msg("%u %u / %u %u: %.9g, not %.9g", t[0], t[1], t[2], t[3], got, expected);
     const uint32_t rows[4] = {t[2], t[3], t[0], t[1]};
     const uint32_t columns[4] = {t[1], t[0], t[3], t[2]};
     const uint32_t both[4] = {t[3], t[2], t[1], t[0]};
     const uint32_t transposed[4] = {t[0], t[2], t[1], t[3]};
-    assert_memory_equal(&(float){score(kind, rows)}, &(float){score(kind, t)}, sizeof(float));
-    assert_memory_equal(&(float){score(kind, columns)}, &(float){score(kind, t)}, sizeof(float));
-    assert_memory_equal(&(float){score(kind, both)}, &(float){score(kind, t)}, sizeof(float));
-    if (kind != RLVC_SCORE_GINI)
-        assert_memory_equal(&(float){score(kind, transposed)}, &(float){score(kind, t)},
-                            sizeof(float));
+    assert_memory_equal(&(float){score(rows)}, &(float){score(t)}, sizeof(float));
+    assert_memory_equal(&(float){score(columns)}, &(float){score(t)}, sizeof(float));
+    assert_memory_equal(&(float){score(both)}, &(float){score(t)}, sizeof(float));
+    assert_memory_equal(&(float){score(transposed)}, &(float){score(t)}, sizeof(float));
 }
 
 static void test_every_small_table(void **state) {
@@ -76,8 +67,7 @@ static void test_every_small_table(void **state) {
         for (uint32_t b = 0; a + b <= SUM; b++)
             for (uint32_t c = 0; a + b + c <= SUM; c++)
                 for (uint32_t d = 0; a + b + c + d <= SUM; d++)
-                    for (uint8_t kind = 0; kind < KINDS; kind++)
-                        check(kind, (const uint32_t[4]){a, b, c, d});
+                    check((const uint32_t[4]){a, b, c, d});
 }
 
 /* Tables of any size and shape; half of them within a few counts of independence, where a plain sum
@@ -97,8 +87,7 @@ static void test_large_tables(void **state) {
             a = (uint32_t)((uint64_t)row * column / total) + rlvc_rng_below(&rng, 5u);
             a = a < most ? a : most;
         }
-        for (uint8_t kind = 0; kind < KINDS; kind++)
-            check(kind, (const uint32_t[4]){a, row - a, column - a, total - row - column + a});
+        check((const uint32_t[4]){a, row - a, column - a, total - row - column + a});
     }
 }
 
@@ -107,12 +96,9 @@ static void test_known_values(void **state) {
     const uint32_t perfect[4] = {8, 0, 0, 8};
     const uint32_t none[4] = {4, 8, 2, 4};
     const uint32_t largest[4] = {1u << 30, 0, 0, (1u << 30) - 1u};
-    const float expected[KINDS] = {1.0f, 0.5f, 16.0f};
-    for (uint8_t kind = 0; kind < KINDS; kind++) {
-        assert_float_equal(score(kind, perfect), expected[kind], 1e-6f);
-        assert_float_equal(score(kind, none), 0.0f, 0.0f);
-        check(kind, largest);
-    }
+    assert_float_equal(score(perfect), 1.0f, 1e-6f);
+    assert_float_equal(score(none), 0.0f, 0.0f);
+    check(largest);
 }
 
 int main(void) {

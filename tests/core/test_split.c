@@ -146,86 +146,6 @@ static void test_nothing_tells(void **state) {
     expect_none();
 }
 
-/* ------------------------------------------------------------------ the value gate */
-
-/* Bit 0 is worth 1.5 whatever is done; the better of two actions is the one that bit `useful` says,
- * for 1 more. */
-static void add_decoy(uint32_t useful) {
-    for (unsigned char percept = 0; percept < 64u; percept++)
-        for (uint8_t action = 0; action < 2u; action++)
-            add(2, percept, action,
-                (float)(percept & 1u) * 1.5f + (float)((percept >> useful & 1u) == action));
-}
-
-/* What explains the targets best is set aside, and the best of the others is of use, in whatever
- * block it is. */
-static void test_gate(void **state) {
-    (void)state;
-    for (uint32_t at_once = 1; at_once < 7u; at_once++) {
-        player_enter_world(&p, at_once % 2u == 0 ? BATCH : ONE_BY_ONE);
-        p.config.actions = 2;
-        p.config.features_at_once = at_once;
-        p.config.gate = at_once != 3u;
-        player_init(&p);
-        add_decoy(4);
-        expect_root(p.config.gate ? 4 : 0, 2);
-        assert_int_equal(player_stats(&p).classes, p.config.gate ? 2 : 4);
-    }
-}
-
-/* Nothing is of use: every bit is set aside in turn, and no class is split. */
-static void test_gate_refuses_all(void **state) {
-    (void)state;
-    player_enter_world(&p, BATCH);
-    p.config.actions = 2;
-    p.config.gate = 1;
-    player_init(&p);
-    for (unsigned char percept = 0; percept < 64u; percept++)
-        for (uint8_t action = 0; action < 2u; action++)
-            add(2, percept, action, (float)percept);
-    expect_none();
-}
-
-/* One action: there is nothing to choose, and one group only. */
-static void test_gate_of_one_action(void **state) {
-    (void)state;
-    player_enter_world(&p, BATCH);
-    p.config.actions = 1;
-    p.config.gate = 1;
-    player_init(&p);
-    add(20, 2, 0, 1.0f);
-    add(20, 0, 0, 0.0f);
-    expect_none();
-}
-
-/* Candidate 0 is set aside, and with it 64, but not 65. */
-static void test_gate_of_many_candidates(void **state) {
-    (void)state;
-    for (uint32_t useful = 64; useful < 66u; useful++) {
-        rlvc_domain bits;
-        assert_int_equal(rlvc_bits_domain(70, &bits), RLVC_OK);
-        player_enter_world(&p, BATCH);
-        p.domain = bits;
-        p.config.actions = 2;
-        p.config.features_at_once = 8;
-        p.config.gate = 1;
-        player_init(&p);
-        for (uint32_t i = 0; i < 160u; i++) {
-            unsigned char percept[9] = {0};
-            const rlvc_choice choice = {(uint8_t)(i / 4u % 2u), 0};
-            percept[0] = (unsigned char)(i & 1u);
-            percept[8] = (unsigned char)((i / 2u % 2u) << (useful - 64u));
-            float reward = (float)(i & 1u) * 1.5f + (float)(i / 2u % 2u == choice.action);
-            assert_int_equal(rlvc_begin(p.agent, percept), RLVC_OK);
-            assert_int_equal(rlvc_observe(p.agent, choice, reward, NULL, RLVC_TERMINATED), RLVC_OK);
-        }
-        if (useful == 65u)
-            expect_root(65, 2);
-        else
-            expect_none();
-    }
-}
-
 /* ------------------------------------------------------------------ the domain's own oracle */
 
 /* Which cutpoint it answers at, and what it proposes there. */
@@ -279,17 +199,10 @@ static void test_oracle(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tie_of_actions),
-        cmocka_unit_test(test_tie_of_features),
-        cmocka_unit_test(test_together),
-        cmocka_unit_test(test_min_samples),
-        cmocka_unit_test(test_near_targets),
-        cmocka_unit_test(test_nothing_tells),
+        cmocka_unit_test(test_tie_of_actions), cmocka_unit_test(test_tie_of_features),
+        cmocka_unit_test(test_together),       cmocka_unit_test(test_min_samples),
+        cmocka_unit_test(test_near_targets),   cmocka_unit_test(test_nothing_tells),
         cmocka_unit_test(test_oracle),
-        cmocka_unit_test(test_gate),
-        cmocka_unit_test(test_gate_refuses_all),
-        cmocka_unit_test(test_gate_of_one_action),
-        cmocka_unit_test(test_gate_of_many_candidates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

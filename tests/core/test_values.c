@@ -18,14 +18,12 @@
 static uint64_t block[256];
 static rlvc_values values;
 
-static void make(uint8_t untried) {
+static void make(void) {
     rlvc_arena arena = {(unsigned char *)block, 0};
     rlvc_config config;
     memset(&config, 0, sizeof config);
     config.classes = CLASSES;
     config.actions = ACTIONS;
-    config.untried = untried;
-    config.optimistic_value = 5.0f;
     block_fill(block, 0xa5, sizeof block);
     rlvc_values_carve(&values, &arena, &config);
     assert_true(arena.used <= sizeof block);
@@ -34,17 +32,14 @@ static void make(uint8_t untried) {
 
 static void test_new_class(void **state) {
     (void)state;
-    for (uint8_t untried = 0; untried < 2u; untried++) {
-        make(untried);
-        float worth = untried == RLVC_UNTRIED_OPTIMISTIC ? 5.0f : 0.0f;
-        for (uint32_t a = 0; a < ACTIONS; a++) {
-            assert_float_equal(values.q[a], worth, 0.0f);
-            assert_int_equal(values.tried[a], 0);
-        }
-        assert_float_equal(rlvc_values_best(&values, 0), worth, 0.0f);
-        assert_int_equal(rlvc_values_greedy(&values, 0), 0);
-        assert_true(rlvc_values_check(&values, 1));
+    make();
+    for (uint32_t a = 0; a < ACTIONS; a++) {
+        assert_float_equal(values.q[a], 0.0f, 0.0f);
+        assert_int_equal(values.tried[a], 0);
     }
+    assert_float_equal(rlvc_values_best(&values, 0), 0.0f, 0.0f);
+    assert_int_equal(rlvc_values_greedy(&values, 0), 0);
+    assert_true(rlvc_values_check(&values, 1));
 }
 
 /* A class that was greedy for action 1 and worth 9. */
@@ -53,21 +48,18 @@ static void test_greedy(void **state) {
     const struct {
         float q[ACTIONS];
         uint32_t tried[ACTIONS];
-        uint8_t untried;
         uint32_t action;
         float value;
     } cases[] = {
-        {{1.0f, 2.0f, 3.0f}, {1, 1, 1}, RLVC_UNTRIED_EXCLUDED, 2, 3.0f},
-        {{3.0f, 2.0f, 3.0f}, {1, 1, 1}, RLVC_UNTRIED_EXCLUDED, 0, 3.0f}, /* the lower of equals */
-        {{-0.0f, 0.0f, -1.0f}, {1, 1, 1}, RLVC_UNTRIED_EXCLUDED, 0, 0.0f},
-        {{9.0f, 2.0f, 3.0f}, {0, 1, 1}, RLVC_UNTRIED_EXCLUDED, 2, 3.0f},
-        {{9.0f, 2.0f, 3.0f}, {0, 1, 1}, RLVC_UNTRIED_OPTIMISTIC, 0, 9.0f},
-        {{9.0f, -2.0f, 3.0f}, {0, 1, 0}, RLVC_UNTRIED_EXCLUDED, 1, -2.0f},
-        {{8.0f, 7.0f, 6.0f}, {0, 0, 0}, RLVC_UNTRIED_EXCLUDED, 1, 9.0f}, /* all as it was */
-        {{8.0f, 7.0f, 6.0f}, {0, 0, 0}, RLVC_UNTRIED_OPTIMISTIC, 0, 8.0f},
+        {{1.0f, 2.0f, 3.0f}, {1, 1, 1}, 2, 3.0f},
+        {{3.0f, 2.0f, 3.0f}, {1, 1, 1}, 0, 3.0f}, /* the lower of equals */
+        {{-0.0f, 0.0f, -1.0f}, {1, 1, 1}, 0, 0.0f},
+        {{9.0f, 2.0f, 3.0f}, {0, 1, 1}, 2, 3.0f},
+        {{9.0f, -2.0f, 3.0f}, {0, 1, 0}, 1, -2.0f},
+        {{8.0f, 7.0f, 6.0f}, {0, 0, 0}, 1, 9.0f}, /* all as it was */
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        make(cases[i].untried);
+        make();
         memcpy(values.q, cases[i].q, sizeof cases[i].q);
         memcpy(values.tried, cases[i].tried, sizeof cases[i].tried);
         values.value[0] = 9.0f;
@@ -79,7 +71,7 @@ static void test_greedy(void **state) {
 
 static void test_inherit_and_forget(void **state) {
     (void)state;
-    make(RLVC_UNTRIED_EXCLUDED);
+    make();
     for (uint32_t a = 0; a < ACTIONS; a++) {
         values.q[a] = 1.5f * (float)a;
         values.reward[a] = -(float)a;
@@ -107,7 +99,7 @@ static void test_check_finds_damage(void **state) {
     (void)state;
     const float zero = 0.0f;
     for (int damage = 0; damage < 6; damage++) {
-        make(RLVC_UNTRIED_EXCLUDED);
+        make();
         rlvc_values_inherit(&values, 1, 0);
         assert_true(rlvc_values_check(&values, 2));
         if (damage < 2)

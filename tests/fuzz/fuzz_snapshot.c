@@ -95,7 +95,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     config.alpha = 1.0f;
     config.max_sweeps = 50;
     config.criterion = data[0] & 1u;
-    config.solver = (uint8_t)((data[0] >> 1) % 5u);
+    config.solver = (uint8_t)((data[0] >> 1) % 4u);
     save(&config, &domain, data[1]);
     int mend = data[2] & 1, replace = data[2] >> 1 & 1;
     data += 3;

@@ -11,9 +11,8 @@ U8, U32, U64, FLOAT = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c
 POINTER, SIZE = ctypes.c_void_p, ctypes.c_size_t
 
 RETURNS, RESIDUAL = 0, 1
-GAIN, GINI, CHI2, RANKS = 0, 1, 2, 3
+GAIN, RANKS = 0, 3
 VALUE_ITERATION, POLICY_ITERATION = 0, 1
-EXCLUDED, OPTIMISTIC = 0, 1
 GOES_ON, TERMINATED, TRUNCATED = 0, 1, 2
 
 
@@ -25,8 +24,8 @@ Domain = struct("Domain", ctx=POINTER, percept_bytes=U32, feature_bytes=U32, fea
                 exhibits=POINTER, candidates=POINTER, detect=POINTER, oracle=POINTER, name=POINTER)
 Config = struct("Config", actions=U32, capacity=U32, classes=U32, features_at_once=U32,
                 min_samples=U32, max_sweeps=U32, seed=U32, criterion=U8, score=U8, solver=U8,
-                untried=U8, continuing=U8, successors=U8, explore=U8, gate=U8, discount=FLOAT, epsilon=FLOAT,
-                alpha=FLOAT, alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT, optimistic_value=FLOAT)
+                continuing=U8, successors=U8, explore=U8, reserved=U8 * 2, discount=FLOAT, epsilon=FLOAT, alpha=FLOAT,
+                alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT)
 Choice = struct("Choice", action=U8, exploited=U8)
 Progress = struct("Progress", work=U32, rounds=U32, splits=U32, done=U8, reserved=U8 * 3)
 Statistics = struct("Statistics", interactions=U64, stored=U32, step=U32, classes=U32, depth=U32,

@@ -25,7 +25,7 @@ TASKS = {
     "rare both": (lambda rng: 100.0 if rng.random() < 0.02 else -1.0, 0.03),
 }
 
-SCORES = {"gain": binding.GAIN, "gini": binding.GINI, "chi2": binding.CHI2, "ranks": binding.RANKS}
+SCORES = {"gain": binding.GAIN, "ranks": binding.RANKS}
 
 
 def grows(task, seed, interactions, every, bits=18, actions=4, shift=0.0, **fields):
@@ -58,11 +58,10 @@ def main():
     parser.add_argument("--alpha", type=float, default=0.05, help="the rate that is stated (0.05)")
     parser.add_argument("--shift", type=float, default=0.0, help="of rewards, by bit 0 (0)")
     parser.add_argument("--score", choices=SCORES, default="gain", help="of a feature (gain)")
-    parser.add_argument("--gate", action="store_true", help="with the value gate")
     options = parser.parse_args()
     for task in TASKS:
         found = [grows(task, seed, options.interactions, options.every, shift=options.shift,
-                       alpha=options.alpha, score=SCORES[options.score], gate=options.gate)
+                       alpha=options.alpha, score=SCORES[options.score])
                  for seed in range(options.runs)]
         grown = sum(after > 0 for after in found)
         median = numpy.median([after or numpy.inf for after in found])

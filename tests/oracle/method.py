@@ -12,7 +12,7 @@ import numpy
 import scipy.stats
 
 RETURNS, RESIDUAL = 0, 1
-GAIN, GINI, CHI2, RANKS = 0, 1, 2, 3
+GAIN, RANKS = 0, 3
 
 
 @dataclass
@@ -72,7 +72,7 @@ class Tables:
         self.values = numpy.append(self.values, self.values[class_id])
 
 
-def solve(database, classes, next_classes, before, discount, optimistic=None):
+def solve(database, classes, next_classes, before, discount):
     """Value iteration, to convergence, over the class-level process that the database shows. What it does
     not show stays as it was before: Q of a pair, V of a class without any."""
     shape = before.q.shape
@@ -87,7 +87,7 @@ def solve(database, classes, next_classes, before, discount, optimistic=None):
     values, change = before.values, numpy.inf
     while change > 1e-13 * (1 + numpy.abs(values).max()):
         q = numpy.where(tried > 0, (reward + discount * transitions @ values) / times, before.q)
-        counts = numpy.where(numpy.isnan(q), -numpy.inf if optimistic is None else optimistic, q)
+        counts = numpy.where(numpy.isnan(q), -numpy.inf, q)
         best = counts.max(axis=1)
         after = numpy.where(numpy.isfinite(best), best, values)
         change = numpy.abs(after - values).max()
@@ -98,16 +98,13 @@ def solve(database, classes, next_classes, before, discount, optimistic=None):
 # ------------------------------------------------------------------ splits (sections 4.2.3, 4.2.4)
 
 
-def scores(kind, a, b, c, d):
+def scores(a, b, c, d):
     """How much better one knows the side of the cutpoint once the presence of the feature is known, from
     2 x 2 tables: with and without it below (a, b) and above (c, d)."""
-    if kind == CHI2:
-        return pearson(a, b, c, d)
-    measure = entropy if kind == GAIN else impurity
     present, absent = numpy.array([a, c], float), numpy.array([b, d], float)
     both = present + absent
-    return measure(both) - (share(present, both) * measure(present)
-                            + share(absent, both) * measure(absent))
+    return entropy(both) - (share(present, both) * entropy(present)
+                            + share(absent, both) * entropy(absent))
 
 
 def share(part, whole):
@@ -121,10 +118,6 @@ def proportions(counts):
 def entropy(counts):
     p = proportions(counts)
     return -numpy.sum(p * numpy.log2(numpy.where(p > 0, p, 1)), axis=0)
-
-
-def impurity(counts):
-    return 1 - numpy.sum(proportions(counts) ** 2, axis=0)
 
 
 def pearson(a, b, c, d):
@@ -156,7 +149,7 @@ def table_log_p(table):
 def table_statistic(table):
     """What a table adds to a sum over several, of one degree of freedom."""
     if expects_below(table, 1):
-        return float(2 * numpy.log(2) * sum(table) * scores(GAIN, *table))
+        return float(2 * numpy.log(2) * sum(table) * scores(*table))
     return float(pearson(*table))
 
 
@@ -267,10 +260,9 @@ class Group:
         b = self.cuts - a
         c = self.present[-1, feature] - a
         d = self.samples - self.cuts - c
-        found = scores(kind, a, b, c, d)
-        evidence = found if kind == CHI2 else found * self.samples
+        found = scores(a, b, c, d)
         return [Candidate(self.action, feature, *numbers)
-                for numbers in zip(evidence, found, zip(a, b, c, d))]
+                for numbers in zip(found * self.samples, found, zip(a, b, c, d))]
 
 
 @dataclass
@@ -285,12 +277,6 @@ class Search:
 
     def __bool__(self):
         return any(x.evidence > 1e-9 for x in self.alone)
-
-    def without(self, features):
-        """The gate has set some features aside, which were looked at nonetheless."""
-        return Search([x for x in self.alone if x.feature not in features],
-                      {f: x for f, x in self.together.items() if f not in features},
-                      self.groups, self.log_features, self.kind)
 
     def correction(self):
         """Two winners are compared where there is more than one group."""
@@ -337,26 +323,6 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
 def log_pairs(f, g, features):
     """What a pair's p-value is corrected by: the pairs g = f have half of the level."""
     return numpy.log(2 * features * (1 if f == g else features - 1))
-
-
-def gate_margins(present, actions, targets, action_count, min_samples, near):
-    """By how much the best of the actions is surely worth more than the class's greedy one, on the better
-    side of a split: two standard errors off each mean. The least and the greatest, over the actions that
-    are greedy to within `near`."""
-    means = numpy.full(action_count, -numpy.inf)
-    lower = numpy.full((action_count, 2), -numpy.inf)
-    upper = numpy.full((action_count, 2), numpy.inf)
-    for action in range(action_count):
-        mine = actions == action
-        means[action] = targets[mine].mean() if mine.any() else -numpy.inf
-        for side in range(2):
-            x = targets[mine & (present == side)]
-            if len(x) >= min_samples:
-                reach = 2 * numpy.sqrt(x.var() / len(x))
-                lower[action, side], upper[action, side] = x.mean() - reach, x.mean() + reach
-    greedy = numpy.flatnonzero(means >= means.max() - near)
-    margins = [(lower.max(axis=0) - upper[g]).max() for g in greedy]
-    return min(margins), max(margins)
 
 
 def level(alpha, step, successors):

@@ -16,6 +16,7 @@ from binding import GOES_ON, TERMINATED, TRUNCATED
 
 NEAR = 4e-6  # relative: a quarter of what score.h grants a score
 NUMBERS = 1e-5
+SCORES = [method.GAIN, method.GAIN, method.GAIN, method.RANKS]
 
 
 class Learner:
@@ -26,12 +27,8 @@ class Learner:
         self.agent = binding.Agent(bits, actions, **fields)
         self.config = self.agent.config
         self.tree, self.database, self.current = method.Tree(), [], None
-        self.optimistic = None
-        if self.config.untried == binding.OPTIMISTIC:
-            self.optimistic = self.config.optimistic_value
         self.tables = method.Tables(numpy.full((1, actions), numpy.nan),
-                                    numpy.zeros((1, actions), int),
-                                    numpy.full(1, self.optimistic or 0.0))
+                                    numpy.zeros((1, actions), int), numpy.zeros(1))
 
     def begin(self, percept):
         if self.current is not None and self.database:
@@ -72,7 +69,7 @@ class Learner:
 
     def solve(self):
         self.tables = method.solve(self.database, *self.classes(), self.tables,
-                                   self.config.discount, self.optimistic)
+                                   self.config.discount)
 
     def targets(self, step):
         if self.config.criterion == method.RETURNS:
@@ -96,9 +93,7 @@ class Learner:
         def search(mine):
             found = method.search(percepts[mine], actions[mine], targets[mine], self.config.actions,
                                   gap, self.config.score, self.config.min_samples)
-            if not self.config.gate:
-                return self.allowed(found) if found else []
-            return self.gated(found, percepts[mine], actions[mine], targets[mine], gap) if found else []
+            return self.allowed(found) if found else []
 
         def follow(mine):
             return self.following(method.follow(percepts[mine], nexts[mine], actions[mine],
@@ -121,21 +116,6 @@ class Learner:
             if splits:
                 return True
         return False
-
-    def gated(self, found, percepts, actions, targets, gap, refused=frozenset()):
-        """The splits that the method allows once those are set aside that raise no return. What the core's
-        values cannot tell from the margin may go either way."""
-        left, result = found.without(refused), []
-        near = 4 * self.config.tolerance + 1e-4 * (1 + numpy.abs(targets).max())
-        for x in self.allowed(left) if left else []:
-            least, most = method.gate_margins(percepts[:, x["bit"]], actions, targets,
-                                              self.config.actions, self.config.min_samples, near)
-            if x["log_p"] > -NUMBERS or most > gap - near:
-                result.append(x)
-            if x["log_p"] < 0 and least < gap + near:
-                others = self.gated(found, percepts, actions, targets, gap, refused | {x["bit"]})
-                result += others or [{**x, "bit": None, "log_p": 0.0}]  # or none at all
-        return result
 
     # -------------------------------------------------------------- one class
 
@@ -238,8 +218,8 @@ class Learner:
         assert numpy.abs(values - wanted.values).max() <= bound
         known = wanted.tried > 0
         assert numpy.abs(q - wanted.q)[known].max() <= bound
-        assert (q[~known] == numpy.float32(self.optimistic or 0.0)).all()
-        counts = numpy.where(known | (self.optimistic is not None), q, -numpy.inf)
+        assert (q[~known] == 0.0).all()
+        counts = numpy.where(known, q, -numpy.inf)
         some = numpy.isfinite(counts).any(axis=1)
         assert (policy[some] == counts[some].argmax(axis=1)).all()
 
@@ -284,10 +264,9 @@ def test_random_residual(seed):
     rng = numpy.random.default_rng(seed)
     learner = Learner(
         int(rng.integers(2, 12)), int(rng.integers(1, 5)), classes=200, capacity=1000,
-        criterion=method.RESIDUAL, score=seed % 4, alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
-        tolerance=1e-4, discount=float(rng.choice([0.0, 0.5, 0.9])), solver=[0, 1, 4][seed % 3 - seed % 2],
-        min_samples=int(rng.integers(2, 20)), untried=seed // 3 % 2, optimistic_value=3.0,
-        features_at_once=1 + seed % 7, gate=seed % 2)
+        criterion=method.RESIDUAL, score=SCORES[seed % 4], alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
+        tolerance=1e-4, discount=float(rng.choice([0.0, 0.5, 0.9])), solver=seed // 2 % 2,
+        min_samples=int(rng.integers(2, 20)), features_at_once=1 + seed % 7)
     for _ in range(2):
         fill(learner, rng, int(rng.integers(5, 250)), levels=int(rng.choice([1, 3, 30])))
         learner.learn()
@@ -299,7 +278,7 @@ def test_random_successors(seed):
     rng = numpy.random.default_rng(3000 + seed)
     bits, actions = int(rng.integers(2, 10)), int(rng.integers(1, 5))
     learner = Learner(
-        bits, actions, classes=200, capacity=1000, successors=1, score=seed % 4, tolerance=1e-4,
+        bits, actions, classes=200, capacity=1000, successors=1, score=SCORES[seed % 4], tolerance=1e-4,
         alpha=[1e-4, 0.01, 0.3][seed % 3], alpha_known=[0.1, 1e-3, 1.0][seed // 3 % 3],
         min_samples=int(rng.integers(2, 20)))
     sources = rng.integers(-1, bits, (actions, bits))  # -1: at random
@@ -331,26 +310,12 @@ def test_nothing_pays(seed):
     assert all(split.action == 3 for split, _ in learner.agent.splits())
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_gate(seed):
-    """Two bits say what every action is worth, one which is the best: the tree tests that one alone."""
-    rng = numpy.random.default_rng(5000 + seed)
-    learner = Learner(6, 3, capacity=1000, gate=1, features_at_once=1 + seed % 6)
-    for _ in range(900):
-        percept, action = rng.integers(0, 2, 6), int(rng.integers(3))
-        learner.begin(percept)
-        worth = 0.8 * percept[0] + 0.6 * percept[5] + (action == 2 * percept[3])
-        learner.observe(action, 0, worth + float(rng.normal()) / 4, None, TERMINATED)
-    assert learner.learn() == 1
-    assert learner.agent.splits()[0][1] == 3
-
-
 @pytest.mark.parametrize("seed", range(60))
 def test_random_returns(seed):
     rng = numpy.random.default_rng(1000 + seed)
     learner = Learner(
         int(rng.integers(2, 12)), int(rng.integers(1, 4)), classes=200, capacity=1000,
-        criterion=method.RETURNS, score=seed % 4, alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
+        criterion=method.RETURNS, score=SCORES[seed % 4], alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
         discount=float(rng.choice([0.0, 0.5, 0.9, 0.99])), continuing=seed % 2, tolerance=1e-4,
         min_samples=int(rng.integers(2, 20)))
     for _ in range(3):
@@ -363,7 +328,7 @@ def test_random_returns(seed):
 def test_same_columns(seed):
     """Bits that are copies of others: the first must win."""
     rng = numpy.random.default_rng(2000 + seed)
-    learner = Learner(9, 2, classes=100, capacity=1000, criterion=seed % 2, score=seed % 4,
+    learner = Learner(9, 2, classes=100, capacity=1000, criterion=seed % 2, score=SCORES[seed % 4],
                       alpha=0.5, discount=0.5, features_at_once=1 + seed % 4)
     for _ in range(300):
         base = rng.integers(0, 2, 3)

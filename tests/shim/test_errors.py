@@ -401,7 +401,7 @@ def test_wrong_budgets(agent, budget):
         ({"discount": 1.5}, "discount"), ({"capacity": 0}, "capacity"), ({"capacity": 2**40}, "capacity"),
         ({"capacity": "many"}, "capacity"), ({"score": "best"}, "score"), ({"alpha": float("nan")}, "alpha"),
         ({"nonsense": 1}, "nonsense"), ({"epsilon": None, "discount": -1.0}, "discount"),
-        ({"classes": 1.5}, "classes"), ({"seed": -1}, "seed"), ({"gate": True, "criterion": "returns"}, "gate"),
+        ({"classes": 1.5}, "classes"), ({"seed": -1}, "seed"), ({"score": "gini"}, "score"),
     ],
 )  # fmt: skip
 def test_wrong_configs(changes, named):

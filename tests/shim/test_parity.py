@@ -30,7 +30,7 @@ def programs(draw):
         "capacity": draw(st.sampled_from([1, 7, 60, 500])),
         "classes": draw(st.sampled_from([1, 2, 16])),
         "seed": draw(st.integers(0, 2**32 - 1)),
-        "solver": draw(st.integers(0, 4)),
+        "solver": draw(st.integers(0, 3)),
         "criterion": draw(st.integers(0, 1)),
     }
     # The world: the reward of a percept is that of its lowest bits, so that there is much to learn.

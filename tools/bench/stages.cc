@@ -45,7 +45,7 @@ uint32_t detect(const rlvc_domain &domain, const rlvc_samples &samples, uint32_t
 void scan(const uint64_t *column, const uint64_t *cuts, uint32_t count, uint32_t feature,
           Winner &winner) {
     rlvc_scan scan;
-    rlvc_scan_begin(&scan, column, cuts, count, RLVC_SCORE_GAIN, winner.cut.score);
+    rlvc_scan_begin(&scan, column, cuts, count, 0, winner.cut.score);
     while (!scan.done)
         rlvc_scan_step(&scan, RLVC_BUDGET_UNBOUNDED);
     if (scan.best.score > winner.cut.score)
@@ -74,7 +74,7 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     replay.percept_bytes = percept_bytes;
     rlvc_aliasing aliasing = {};
     const rlvc_searching searching = {
-        &space, &replay, &aliasing, &domain, config.min_samples, config.score, config.gate};
+        &space, &replay, &aliasing, &domain, config.min_samples, config.score == RLVC_SCORE_RANKS};
     const uint32_t first[2] = {0, config.capacity};
     rlvc_search search;
     rlvc_search_begin(&search, &searching, first);

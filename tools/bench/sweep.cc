@@ -4,8 +4,6 @@
 namespace bench {
 namespace {
 
-constexpr uint8_t kind = RLVC_SCORE_GAIN;
-
 uint32_t count_ones(const uint64_t *column, uint32_t words) {
     uint32_t present = 0;
     for (uint32_t word = 0; word < words; word++)
@@ -24,7 +22,7 @@ void sweep_column(const Prepared &data, uint32_t feature, Winner &winner) {
         for (uint32_t below = word * 64; cuts != 0; below++) {
             if (cuts & 1) {
                 uint32_t y = below - x;
-                float score = rlvc_score(kind, x, y, present - x, absent - y);
+                float score = rlvc_score(x, y, present - x, absent - y);
                 if (score > winner.cut.score)
                     winner = {{score, below, x, present}, feature};
             }

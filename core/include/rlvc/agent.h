@@ -35,8 +35,6 @@ typedef struct rlvc_agent rlvc_agent;
 
 /* config.score: how well a feature explains a partition (section 4.2.3). */
 #define RLVC_SCORE_GAIN 0u /* information gain */
-#define RLVC_SCORE_GINI 1u /* decrease of Gini impurity */
-#define RLVC_SCORE_CHI2 2u /* Pearson's chi-square statistic */
 /* no partition, but the rank-sum test of the targets with the feature against those without it
  * (Wilcoxon 1945, Mann and Whitney 1947): one test for a feature, not one for each cutpoint. It
  * sees targets that are shifted, not others. Not for a domain with its own oracle; capacity
@@ -49,13 +47,6 @@ typedef struct rlvc_agent rlvc_agent;
 /* incremental: rlvc_observe updates Q, rlvc_learn only splits */
 #define RLVC_SOLVER_Q_LEARNING 2u
 #define RLVC_SOLVER_SARSA 3u /* likewise, on-policy */
-/* batch: prioritized sweeping, to the same values as value iteration with fewer backups where
- * there are many classes and several interactions to a transition */
-#define RLVC_SOLVER_PRIORITIZED 4u
-
-/* config.untried: what a class-action pair without interactions is worth to the batch solvers. */
-#define RLVC_UNTRIED_EXCLUDED 0u   /* it does not count in the maximum over actions */
-#define RLVC_UNTRIED_OPTIMISTIC 1u /* config.optimistic_value */
 
 /* config.explore: which action is tried where the greedy one is not taken. */
 #define RLVC_EXPLORE_UNIFORM 0u /* any, all alike, as published */
@@ -84,7 +75,6 @@ typedef struct rlvc_config {
     uint8_t criterion;         /* RLVC_CRITERION_*. Default RLVC_CRITERION_RESIDUAL */
     uint8_t score;             /* RLVC_SCORE_*. Default RLVC_SCORE_GAIN */
     uint8_t solver;            /* RLVC_SOLVER_*. Default RLVC_SOLVER_VALUE_ITERATION */
-    uint8_t untried;           /* RLVC_UNTRIED_*. Default RLVC_UNTRIED_EXCLUDED */
     uint8_t continuing;        /* 1: the window of definition 1 runs on through a terminated
                                   interaction into the next episode, as in the paper's teleporting
                                   maze; 0: it ends there. Default 0 */
@@ -95,19 +85,7 @@ typedef struct rlvc_config {
                                   an own oracle). Default 1 for bits, if there are no more than
                                   64, else 0 */
     uint8_t explore;           /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
-    uint8_t gate;              /* 1: the value gate. A class is split by its targets only if that
-                                  raises the estimated return: if on one side of the split
-                                  another action than the greedy one of the class is worth more,
-                                  by more than twice the standard errors of both together and
-                                  twice the tolerance; an action with fewer than min_samples
-                                  there does not count (SPEC.md). A feature that does not is set
-                                  aside for the next best. Splits by what follows (successors)
-                                  raise no return by themselves and are left alone. So the tree
-                                  tells no situations apart that are worth different amounts and
-                                  ask for the same action; but what only several tests together
-                                  make useful is not found, and without successors learning can
-                                  stop before it begins (DESIGN.md). Residual criterion only; not
-                                  with an own oracle. Default 0 */
+    uint8_t reserved[2];       /* 0 */
     float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
     float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
     float alpha;               /* the probability that the tree ever takes up a feature while
@@ -130,8 +108,6 @@ typedef struct rlvc_config {
                                   last sweep changed no value by more.) Targets nearer than twice
                                   this count as equal under the residual criterion. Default 0.01 */
     float learning_rate;       /* of the incremental solvers, (0, 1]. Default 0.1 */
-    float optimistic_value;    /* for RLVC_UNTRIED_OPTIMISTIC, in units of return,
-                                  +-RLVC_REWARD_MAX. Default 0 */
 } rlvc_config;
 
 /* Fills *config with the defaults for a domain and a number of actions. The domain is only looked
@@ -309,15 +285,14 @@ typedef struct rlvc_statistics {
     uint32_t last_split;   /* the step k at which the newest split was made; 0 if none */
     uint32_t refused;      /* splits that proved real but found the tree full, since init */
     uint32_t sweeps;       /* of the last solution */
-    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep;
-                              prioritized: the most by which any V might still change at once */
+    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep */
 } rlvc_statistics;
 
 /* @return RLVC_OK. O(splits). */
 RLVC_API rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics);
 
 /* Q(class, action) of the last solution, and how many interactions it rests on (0: untried, and q
- * is what config.untried makes of it). O(1).
+ * is 0). O(1).
  * @param q, samples each optional
  * @return RLVC_OK; RLVC_E_RANGE: class_id or action. */
 RLVC_API rlvc_status rlvc_q(const rlvc_agent *agent, uint32_t class_id, uint32_t action, float *q,

@@ -92,7 +92,9 @@ typedef struct rlvc_snapshot_info {
 /* Looks into a store, as a tool must that was not told the config. Nothing but the snapshot's
  * wholeness is checked. O(bytes).
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE; RLVC_E_EMPTY;
- * RLVC_E_DAMAGED; RLVC_E_VERSION: of *info, only what stands before percept_bytes is known. */
+ * RLVC_E_DAMAGED; RLVC_E_VERSION: of *info, only what stands before percept_bytes is known;
+ * RLVC_E_MISMATCH: its config has an option that this release does not have: *info means nothing.
+ */
 RLVC_API rlvc_status rlvc_snapshot_peek(const rlvc_store *store, rlvc_snapshot_info *info);
 
 #ifdef __cplusplus

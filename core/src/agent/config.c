@@ -16,7 +16,6 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
         .criterion = RLVC_CRITERION_RESIDUAL,
         .score = RLVC_SCORE_GAIN,
         .solver = RLVC_SOLVER_VALUE_ITERATION,
-        .untried = RLVC_UNTRIED_EXCLUDED,
         .explore = RLVC_EXPLORE_DIRECTED,
         .discount = 0.9f,
         .epsilon = 0.9f,
@@ -61,21 +60,17 @@ enum {
     WRONG_CRITERION,
     WRONG_SCORE,
     WRONG_SOLVER,
-    WRONG_UNTRIED,
     WRONG_CONTINUING,
     WRONG_SUCCESSORS,
     WRONG_EXPLORE,
-    WRONG_GATE,
     WRONG_DISCOUNT,
     WRONG_EPSILON,
     WRONG_ALPHA,
     WRONG_ALPHA_KNOWN,
     WRONG_TOLERANCE,
     WRONG_LEARNING_RATE,
-    WRONG_OPTIMISTIC_VALUE,
     WRONG_SUCCESSORS_DOMAIN,
-    WRONG_RANKS,
-    WRONG_GATE_CRITERION
+    WRONG_RANKS
 };
 
 static int wrong_in_domain(const rlvc_domain *domain) {
@@ -111,21 +106,17 @@ static int wrong_in_counts(const rlvc_config *config) {
 static int wrong_in_choices(const rlvc_config *config) {
     if (config->criterion > RLVC_CRITERION_RESIDUAL)
         return WRONG_CRITERION;
-    if (config->score > RLVC_SCORE_RANKS)
+    if (config->score != RLVC_SCORE_GAIN && config->score != RLVC_SCORE_RANKS)
         return WRONG_SCORE;
-    unsigned solver = config->solver <= RLVC_SOLVER_PRIORITIZED ? 1u << config->solver : 0u;
+    unsigned solver = config->solver <= RLVC_SOLVER_SARSA ? 1u << config->solver : 0u;
     if (!(solver & (unsigned)(RLVC_SOLVERS)))
         return WRONG_SOLVER;
-    if (config->untried > RLVC_UNTRIED_OPTIMISTIC)
-        return WRONG_UNTRIED;
     if (config->continuing > 1)
         return WRONG_CONTINUING;
     if (config->successors > 1)
         return WRONG_SUCCESSORS;
     if (config->explore > RLVC_EXPLORE_DIRECTED)
         return WRONG_EXPLORE;
-    if (config->gate > 1)
-        return WRONG_GATE;
     return NOTHING_WRONG;
 }
 
@@ -142,8 +133,6 @@ static int wrong_in_numbers(const rlvc_config *config) {
         return WRONG_TOLERANCE;
     if (!above(config->learning_rate, 0.0f, 1.0f))
         return WRONG_LEARNING_RATE;
-    if (!within(config->optimistic_value, -RLVC_REWARD_MAX, RLVC_REWARD_MAX))
-        return WRONG_OPTIMISTIC_VALUE;
     return NOTHING_WRONG;
 }
 
@@ -153,8 +142,6 @@ static int wrong_together(const rlvc_config *config, const rlvc_domain *domain) 
         return WRONG_SUCCESSORS_DOMAIN;
     if (config->score == RLVC_SCORE_RANKS && (domain->oracle || config->capacity >= RLVC_RANKS_MAX))
         return WRONG_RANKS;
-    if (config->gate && (config->criterion != RLVC_CRITERION_RESIDUAL || domain->oracle))
-        return WRONG_GATE_CRITERION;
     return NOTHING_WRONG;
 }
 
@@ -176,23 +163,18 @@ static const char *message_of(int wrong) {
         [WRONG_CRITERION] = "criterion must be one of RLVC_CRITERION_*",
         [WRONG_SCORE] = "score must be one of RLVC_SCORE_*",
         [WRONG_SOLVER] = "solver must be one of RLVC_SOLVER_* that the library was built with",
-        [WRONG_UNTRIED] = "untried must be one of RLVC_UNTRIED_*",
         [WRONG_CONTINUING] = "continuing must be 0 or 1",
         [WRONG_SUCCESSORS] = "successors must be 0 or 1",
         [WRONG_EXPLORE] = "explore must be one of RLVC_EXPLORE_*",
-        [WRONG_GATE] = "gate must be 0 or 1",
         [WRONG_DISCOUNT] = "discount must be within [0, 1]",
         [WRONG_EPSILON] = "epsilon must be within [0, 1]",
         [WRONG_ALPHA] = "alpha must be within (0, 1]",
         [WRONG_ALPHA_KNOWN] = "alpha_known must be within (0, 1]",
         [WRONG_TOLERANCE] = "tolerance must be within (0, 1e12]",
         [WRONG_LEARNING_RATE] = "learning_rate must be within (0, 1]",
-        [WRONG_OPTIMISTIC_VALUE] = "optimistic_value must be within [-1e12, 1e12]",
         [WRONG_SUCCESSORS_DOMAIN] = "successors needs a domain with features_max within [1, "
                                     "features_at_once] and no oracle",
         [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
-        [WRONG_GATE_CRITERION] = "gate needs the residual criterion, which compares actions, and a "
-                                 "domain with no oracle",
     };
     return messages[wrong];
 }

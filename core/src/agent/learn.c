@@ -50,15 +50,13 @@ rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasi
                            criterion,
                            &agent->domain,
                            agent->config.min_samples,
-                           agent->config.score,
-                           agent->config.gate};
+                           agent->config.score == RLVC_SCORE_RANKS};
     return made;
 }
 
 rlvc_solving rlvc_learner_solving(const rlvc_agent *agent) {
-    rlvc_solving made = {agent->space.sample,    agent->tree.classes,     agent->config.max_sweeps,
-                         agent->config.discount, agent->config.tolerance, agent->replay.slots,
-                         agent->pending};
+    rlvc_solving made = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
+                         agent->config.discount, agent->config.tolerance};
     return made;
 }
 

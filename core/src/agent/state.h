@@ -45,9 +45,7 @@ struct rlvc_agent {
     rlvc_learner learner;
     rlvc_rng rng;
     uint64_t interactions;
-    uint16_t *pending;   /* [classes] the class that a split of this round made from one, or 0;
-                            of no use from LABEL to SEARCH, where prioritized sweeping has its
-                            priorities */
+    uint16_t *pending;   /* [classes] the class that a split of this round made from one, or 0 */
     uint32_t step;       /* k */
     uint32_t run;        /* greedy actions that the present run of exploitation still has to take */
     uint32_t last_split; /* the step of the newest split */

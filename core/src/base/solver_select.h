@@ -9,7 +9,7 @@
 #define RLVC_SRC_SOLVER_SELECT_H
 
 #ifndef RLVC_SOLVERS
-#define RLVC_SOLVERS 31u
+#define RLVC_SOLVERS 15u
 #endif
 
 /* 1 if a solver is built in. O(1). */

@@ -3,7 +3,7 @@
  *
  * Let A samples of N exhibit the feature and B not. The cutpoints are points (x, y) of a path from
  * (0, 0) to (A, B) that goes one step right at a present sample and one step up at an absent one.
- * The scores are convex in (x, y) and 0 on the line n = 0, where n = x B - y A (score.h). Over a
+ * The score is convex in (x, y) and 0 on the line n = 0, where n = x B - y A (score.h). Over a
  * block of samples the path stays in the rectangle from (x0, y0) to (x1, y1), and so no score on it
  * exceeds
  *
@@ -17,9 +17,7 @@
  * Two bounds are tried, a cheap one that needs no logarithm and division, then the score itself.
  * The cheap one compares n^2 with a number that only changes with the bar. With i = x + y:
  *
- *      Gini        score <= bar   iff  n^2 <= bar N^2 A B / 2
- *      chi-square  score <= bar   iff  n^2 <= bar (A B / N) i (N - i)
- *      gain        score <= bar    if  n^2 <= bar (2 ln 2 / f) A B i (N - i)
+ *      score <= bar  if  n^2 <= bar (2 ln 2 / f) A B i (N - i)
  *
  * where f = 10/9 if |n| / Q <= 1/4 for the least Q = r * c of the four cells, since with u = -n / Q
  * a cell adds at most u^2 / 2 (1 + (u / 3) / (1 - u)) of E (term by term: (1 + u) ln (1 + u) - u is
@@ -41,8 +39,8 @@
 
 #include "../base/assert.h"
 #include "../base/popcount.h"
-#include "rlvc/agent.h"
 #include "../stats/score.h"
+#include "rlvc/agent.h"
 
 enum { COUNT, PROBE, CHUNK, BLOCK, BITS, RANK };
 
@@ -73,7 +71,7 @@ static uint32_t least(uint32_t a, uint32_t b) {
 static float score_at(const rlvc_scan *scan, uint32_t x, uint32_t y) {
     uint32_t all_present = scan->best.present;
     uint32_t all_absent = scan->count - all_present;
-    return rlvc_score(scan->score_kind, x, y, all_present - x, all_absent - y);
+    return rlvc_score(x, y, all_present - x, all_absent - y);
 }
 
 /* Sets the bar, and what the cheap bounds compare n^2 with. */
@@ -82,14 +80,8 @@ static void set_bar(rlvc_scan *scan, float bar) {
     float absent = (float)(scan->count - scan->best.present);
     float lowered = bar * (1.0f - MARGIN) * present * absent;
     scan->bar = bar;
-    if (scan->score_kind == RLVC_SCORE_GAIN) {
-        scan->wide = lowered * LN_2;
-        scan->narrow = lowered * (1.8f * LN_2);
-    } else if (scan->score_kind == RLVC_SCORE_GINI) {
-        scan->wide = lowered * 0.5f * ((float)scan->count * (float)scan->count);
-    } else {
-        scan->wide = lowered / (float)scan->count;
-    }
+    scan->wide = lowered * LN_2;
+    scan->narrow = lowered * (1.8f * LN_2);
 }
 
 /* n = x B - y A. */
@@ -102,14 +94,12 @@ static int64_t deviation(const rlvc_scan *scan, uint32_t x, uint32_t y) {
 static inline int surely_below(const rlvc_scan *scan, int64_t n, uint32_t x, uint32_t y) {
     float size = (float)n;
     float square = size * size;
-    if (scan->score_kind == RLVC_SCORE_GINI)
-        return square <= scan->wide;
     uint32_t below = x + y;
     uint32_t above = scan->count - below;
     float rows = (float)((int64_t)below * above);
     if (square <= scan->wide * rows)
         return 1;
-    if (scan->score_kind == RLVC_SCORE_CHI2 || square > scan->narrow * rows)
+    if (square > scan->narrow * rows)
         return 0;
     uint32_t present = scan->best.present;
     int64_t smallest = (int64_t)least(below, above) * least(present, scan->count - present);
@@ -128,12 +118,12 @@ static void consider(rlvc_scan *scan, uint32_t below, uint32_t x) {
 }
 
 void rlvc_scan_begin(rlvc_scan *scan, const uint64_t *column, const uint64_t *cuts, uint32_t count,
-                     uint8_t score_kind, float beat) {
+                     uint8_t by_ranks, float beat) {
     RLVC_ASSERT(count >= 1u && count <= INT32_MAX);
     RLVC_ASSERT((cuts[0] & 1u) == 0);
     const rlvc_scan fresh = {.best = {.score = -1.0f}, .phase = COUNT};
     *scan = fresh;
-    scan->score_kind = score_kind;
+    scan->by_ranks = by_ranks;
     scan->count = count;
     scan->column = column;
     scan->cuts = cuts;
@@ -157,7 +147,7 @@ static uint32_t count_step(rlvc_scan *scan, uint32_t budget) {
     scan->best.present += present;
     scan->word = end;
     if (end == words) {
-        scan->phase = scan->score_kind == RLVC_SCORE_RANKS ? RANK : PROBE;
+        scan->phase = scan->by_ranks ? RANK : PROBE;
         scan->word = 0;
         scan->done = scan->best.present == 0 || scan->best.present == scan->count;
         set_bar(scan, scan->bar);

@@ -29,7 +29,7 @@ typedef struct rlvc_cut {
 typedef struct rlvc_scan {
     rlvc_cut best;
     uint8_t done;
-    uint8_t score_kind;
+    uint8_t by_ranks;   /* no cutpoint is sought: the score is the statistic of rank_sum.h */
     uint8_t phase;      /* what is being done: see cutpoint.c */
     uint8_t level;      /* the next block has 2^level words */
     uint32_t count;     /* samples */
@@ -52,10 +52,10 @@ typedef struct rlvc_scan {
  * @param cuts   bit i, i >= 1, is 1 if samples i - 1 and i have distinct targets: `below = i` is a
  *               cutpoint; bit 0 and bits count and above are 0. By ranks there is one
  * @param count  [1, 2^31 - 1]; by ranks [1, RLVC_RANKS_MAX]
- * @param score_kind RLVC_SCORE_*
+ * @param by_ranks 1: the rank-sum test; 0: the information gain
  * @param beat   the best score of earlier columns, which win a tie; or 0, or less */
 void rlvc_scan_begin(rlvc_scan *scan, const uint64_t *column, const uint64_t *cuts, uint32_t count,
-                     uint8_t score_kind, float beat);
+                     uint8_t by_ranks, float beat);
 
 /* Goes on for at most `budget` (>= RLVC_BUDGET_MIN) units; returns the units used, at least 1
  * unless done. The answer is in scan->best once scan->done is 1, and neither it nor the sum of the

@@ -5,9 +5,7 @@
  * at a time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned
  * (SCAN); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
  * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the
- * winners get their p-values (TEST_ALONE, TEST_TOGETHER), and the split, with config.gate, must
- * pass the gate (OPEN, GATE): if it does not, its feature is set aside and the candidates are gone
- * through again. */
+ * winners get their p-values (TEST_ALONE, TEST_TOGETHER). */
 #include "split_search.h"
 
 #include "../base/float_math.h"
@@ -26,9 +24,7 @@ enum {
     ANSWER,
     TEST_ALONE,
     TEST_TOGETHER,
-    OPEN,
-    GATE,
-    DONE
+    DONE = 12 /* a snapshot may hold it; 10 and 11 are not in use */
 };
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
@@ -143,7 +139,7 @@ static void end_marking(rlvc_search *search, const rlvc_searching *searching) {
 /* Goes on to the next group. */
 static void close_group(rlvc_search *search, const rlvc_searching *searching) {
     rlvc_group *group = &searching->space->group[search->action];
-    if (searching->score == RLVC_SCORE_RANKS && group->cuts > 0)
+    if (searching->by_ranks && group->cuts > 0)
         group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
     search->groups += group->cuts > 0;
     search->samples += group->cuts > 0 ? size_of(group) : 0;
@@ -257,7 +253,7 @@ static void open_column(rlvc_search *search, const rlvc_searching *searching,
     const rlvc_workspace *space = searching->space;
     rlvc_scan_begin(&search->inner.scan,
                     rlvc_workspace_column(space, search->words, search->column) + group->word,
-                    space->cuts + group->word, size_of(group), searching->score,
+                    space->cuts + group->word, size_of(group), searching->by_ranks,
                     search->groups == 1 ? search->alone.score : 0.0f);
 }
 
@@ -281,7 +277,7 @@ static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *search
     const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
                               count - cut->below - above};
     rlvc_single weighed = {0.0f, cut->score, table, search->action};
-    weighed.evidence = searching->score >= RLVC_SCORE_CHI2 ? cut->score : cut->score * (float)count;
+    weighed.evidence = searching->by_ranks ? cut->score : cut->score * (float)count;
     return weighed;
 }
 
@@ -291,14 +287,8 @@ static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
     if (found->evidence > best->evidence ||
         (found->evidence == best->evidence && found->action < best->action)) {
         search->alone = *found;
-        search->alone_number = search->first + j;
         memcpy(space->alone, rlvc_workspace_feature(space, j), space->feature_bytes);
     }
-}
-
-/* Has the gate set candidate `number` aside? */
-static int is_refused(const rlvc_search *search, uint32_t number) {
-    return (int)(search->refused[number / 32u % 2u] >> number % 32u & 1u);
 }
 
 /* Takes the result of one column and goes on to the next, or to the next group. */
@@ -311,12 +301,11 @@ static void close_column(rlvc_search *search, const rlvc_searching *searching) {
         pool->degrees++;
         pool->log_tests += rlvc_ln((float)group->cuts);
     }
-    if (found->score > 0.0f && !is_refused(search, search->first + search->column)) {
+    if (found->score > 0.0f) {
         rlvc_single weighed = weigh(search, searching, found, size_of(group));
         pool->evidence += weighed.evidence;
-        pool->statistic += searching->score == RLVC_SCORE_RANKS
-                               ? weighed.evidence
-                               : rlvc_table_statistic(&weighed.table);
+        pool->statistic +=
+            searching->by_ranks ? weighed.evidence : rlvc_table_statistic(&weighed.table);
         keep_best_alone(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
@@ -333,7 +322,6 @@ static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
     search->features += pool->degrees > 0;
     if (pool->evidence > search->together.evidence) {
         search->together = *pool;
-        search->together_number = search->first + search->column;
         memcpy(space->together, rlvc_workspace_feature(space, search->column),
                space->feature_bytes);
     }
@@ -397,65 +385,10 @@ static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) 
     search->features += answer->considered;
     uint32_t above = answer->present - answer->present_below;
     rlvc_cut cut = {0.0f, below, answer->present_below, answer->present};
-    cut.score = rlvc_score(searching->score, cut.present_below, below - cut.present_below, above,
-                           count - below - above);
+    cut.score =
+        rlvc_score(cut.present_below, below - cut.present_below, above, count - below - above);
     rlvc_single weighed = weigh(search, searching, &cut, count);
     keep_best_alone(search, space, &weighed, 0);
-    return RLVC_OK;
-}
-
-/* ------------------------------------------------------------------ the gate */
-
-/* What is charged for a sample that the gate looks at: it is arithmetic. */
-#define GATE_UNITS 2u
-
-/* The p-values are there. What is surely chance need not come to the gate. */
-static uint32_t open_gate(rlvc_search *search, const rlvc_workspace *space) {
-    rlvc_split about;
-    const void *feature = rlvc_search_result(search, space, &about);
-    rlvc_gate_begin(&search->inner.gate, feature);
-    search->column =
-        about.action == space->actions ? search->together_number : search->alone_number;
-    search->action = 0;
-    enter(search, about.log_p < 0.0f ? GATE : DONE);
-    return RLVC_TEST_UNITS;
-}
-
-/* Sets the feature aside, and goes through the candidates again: what explains the targets best may
- * be of no use to any action, and hide what is. */
-static void refuse(rlvc_search *search) {
-    search->refused[search->column / 32u % 2u] |= 1u << search->column % 32u;
-    search->alone.evidence = 0.0f;
-    search->alone.score = 0.0f;
-    search->together.evidence = 0.0f;
-    search->together.degrees = 0;
-    search->features = 0;
-    search->first = 0;
-    enter(search, PROPOSE);
-}
-
-/* One sample of the group at work; after the last, the group. */
-static rlvc_status gate(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_group *group = &searching->space->group[search->action];
-    rlvc_gate *gate = &search->inner.gate;
-    if (search->at < size_of(group)) {
-        uint8_t present;
-        const rlvc_sample *sample = &search->view.sample[group->begin + search->at];
-        rlvc_status status = rlvc_searching_look(searching, sample->slot, gate->feature, &present);
-        if (status != RLVC_OK)
-            return status;
-        rlvc_gate_add(gate, rlvc_target_of_key(sample->key), present != 0);
-        search->at++;
-        return RLVC_OK;
-    }
-    int passes = rlvc_gate_close(gate, searching->min_samples, searching->aliasing->gap);
-    search->at = 0;
-    if (++search->action < searching->space->actions)
-        return RLVC_OK;
-    if (passes)
-        enter(search, DONE);
-    else
-        refuse(search);
     return RLVC_OK;
 }
 
@@ -464,21 +397,20 @@ static rlvc_status gate(rlvc_search *search, const rlvc_searching *searching) {
 /* Finds the p-value of one of the winners, if there are any. */
 static uint32_t test(rlvc_search *search, const rlvc_searching *searching) {
     const rlvc_pool *together = &search->together;
-    const uint8_t after = searching->gate ? OPEN : DONE;
     if (!(search->alone.evidence > 0.0f)) {
         enter(search, DONE);
         return 1;
     }
     if (search->phase == TEST_ALONE) {
-        if (searching->score == RLVC_SCORE_RANKS)
+        if (searching->by_ranks)
             (void)rlvc_chi2_survival(search->alone.score, 1, NULL, &search->alone_log_p);
         else
             search->alone_log_p = rlvc_table_log_p(&search->alone.table);
-        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : after);
+        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : DONE);
     } else {
         (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
                                  &search->together_log_p);
-        enter(search, after);
+        enter(search, DONE);
     }
     return RLVC_TEST_UNITS;
 }
@@ -512,12 +444,6 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
         return ask(search, searching);
     case ANSWER:
         return answer(search, searching);
-    case OPEN:
-        *used = open_gate(search, searching->space);
-        return RLVC_OK;
-    case GATE:
-        *used = GATE_UNITS;
-        return gate(search, searching);
     default:
         *used = test(search, searching);
         return RLVC_OK;
@@ -568,8 +494,6 @@ void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]) {
     word[2] = search->at;
     word[3] = search->first;
     word[4] = search->column;
-    word[8] = search->refused[0];
-    word[9] = search->refused[1];
     if (search->phase == SORT)
         rlvc_sort_mark(&search->inner.sort, word + 5);
     else if (search->phase == SCAN)

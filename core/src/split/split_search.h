@@ -12,31 +12,28 @@
  * evidence and, with a degree of freedom, its test; a group that has cutpoints then counts as one
  * of C = 1 below.
  *
- * The evidence of a feature and a cutpoint in a group is its score times the samples of the group
- * (for chi-square, which counts them already, the score). Two features may win:
- *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower
- * action, then the earlier feature, then the lower cutpoint. Its table is tested (table_test.h),
- * its p-value corrected by F times the sum of the groups' C. together   the one with the most
- * evidence summed over the groups, in each at the cutpoint that is best there; of equals the
- * earlier feature. The statistics of its tables (table_test.h) are added, with a degree of freedom
- * for each group that it divides, its p-value is corrected by F times their C's multiplied. For
- * what tells two situations apart mostly shows after each action, a little. The lower p-value is
- * the split's; where there is more than one group, so that two were made, it is corrected by 2 (all
- * these are Bonferroni's). F counts the features that divide some group. Under the returns
- * criterion a class has one group, its greedy action's, and the split is the published one.
+ * The evidence of a feature and a cutpoint in a group is its score times the samples of the group.
+ * Two features may win:
  *
- * With config.gate the split must also raise the estimated return (gate.h). If it does not, the
- * feature is set aside and the best of the others is looked for, until one passes or none is left
- * whose corrected p-value is below 1. F counts those set aside, too, for they were tried. Of more
- * than 64 candidates, what is set aside are all whose numbers differ by multiples of 64, so that
- * this takes a bit each and an end. */
+ *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower
+ *              action, then the earlier feature, then the lower cutpoint. Its table is tested
+ *              (table_test.h), its p-value corrected by F times the sum of the groups' C.
+ *   together   the one with the most evidence summed over the groups, in each at the cutpoint that
+ *              is best there; of equals the earlier feature. The statistics of its tables
+ *              (table_test.h) are added, with a degree of freedom for each group that it divides;
+ *              its p-value is corrected by F times the product of their C. For what tells two
+ *              situations apart mostly shows after each action, a little.
+ *
+ * The lower p-value is the split's. Where there is more than one group, so that two tests were
+ * made, it is corrected by 2 (all these corrections are Bonferroni's). F counts the features that
+ * divide some group. Under the returns criterion a class has one group, its greedy action's, and
+ * the split is the published one. */
 #ifndef RLVC_SRC_SPLIT_SEARCH_H
 #define RLVC_SRC_SPLIT_SEARCH_H
 
 #include "../samples/targets.h"
 #include "cutpoint.h"
 #include "../stats/table_test.h"
-#include "gate.h"
 #include "../samples/sort.h"
 
 /* The samples of the class after one action. */
@@ -111,24 +108,20 @@ typedef struct rlvc_search {
         rlvc_sort sort;
         rlvc_scan scan;
         rlvc_answer answer;
-        rlvc_gate gate;
     } inner;
     rlvc_single alone;
     rlvc_pool together;
-    uint64_t features;     /* F; with the domain's own oracle, what it considered in all */
-    uint32_t samples;      /* in the groups that take part */
-    uint32_t cuts;         /* in all groups */
-    uint32_t groups;       /* that take part */
-    uint32_t action;       /* the group at work */
-    uint32_t words;        /* of all groups */
-    uint32_t at;           /* sample of the group */
-    uint32_t lowest;       /* the key that began the present cluster of targets */
-    uint32_t first;        /* number of the block's first candidate */
-    uint32_t block;        /* candidates in the block */
-    uint32_t column;       /* of the block; at the gate: the number of its candidate */
-    uint32_t refused[2];   /* by the gate: bit n % 64 for candidate n */
-    uint32_t alone_number; /* the winners' numbers among the candidates */
-    uint32_t together_number;
+    uint64_t features; /* F; with the domain's own oracle, what it considered in all */
+    uint32_t samples;  /* in the groups that take part */
+    uint32_t cuts;     /* in all groups */
+    uint32_t groups;   /* that take part */
+    uint32_t action;   /* the group at work */
+    uint32_t words;    /* of all groups */
+    uint32_t at;       /* sample of the group */
+    uint32_t lowest;   /* the key that began the present cluster of targets */
+    uint32_t first;    /* number of the block's first candidate */
+    uint32_t block;    /* candidates in the block */
+    uint32_t column;   /* of the block */
     float alone_log_p; /* of the winners' statistics, not yet corrected */
     float together_log_p;
     uint8_t phase;
@@ -142,8 +135,7 @@ typedef struct rlvc_searching {
     const rlvc_aliasing *aliasing;
     const rlvc_domain *domain;
     uint32_t min_samples;
-    uint8_t score;
-    uint8_t gate; /* config.gate */
+    uint8_t by_ranks; /* config.score is RLVC_SCORE_RANKS */
 } rlvc_searching;
 
 /* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes
@@ -169,8 +161,7 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, con
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for
  * each sample marked or detected (with up to 64 features; without detect(), for each feature of
  * each sample), what sorting and the scan of each column are charged, one for each feature of a
- * block, RLVC_TEST_UNITS for each of the two p-values and for coming to the gate, two there for
- * each sample and action.
+ * block, RLVC_TEST_UNITS for each of the two p-values.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
                              uint32_t *used);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scores of 2 x 2 tables. score.h has the formulas; here is how the gain is kept from cancelling.
+/* The score of a 2 x 2 table. score.h has the formula; here is how it is kept from cancelling.
  *
  * With P = N O and Q = r c (so that E = Q / N), both exact in 64 bits, a cell adds
  *
@@ -16,7 +16,6 @@
 
 #include "../base/assert.h"
 #include "../base/float_math.h"
-#include "rlvc/agent.h"
 
 #define LN_2 0.693147181f
 
@@ -43,8 +42,8 @@ static float cell_gain(int64_t p, int64_t q) {
     return rlvc_excess((float)p, (float)q, (float)(p - q), (float)(p + q));
 }
 
-float rlvc_score(uint8_t kind, uint32_t present_below, uint32_t absent_below,
-                 uint32_t present_above, uint32_t absent_above) {
+float rlvc_score(uint32_t present_below, uint32_t absent_below, uint32_t present_above,
+                 uint32_t absent_above) {
     int64_t a = present_below;
     int64_t b = absent_below;
     int64_t c = present_above;
@@ -55,18 +54,9 @@ float rlvc_score(uint8_t kind, uint32_t present_below, uint32_t absent_below,
     int64_t c2 = b + d;
     int64_t total = r1 + r2;
     RLVC_ASSERT(total <= INT32_MAX);
-    RLVC_ASSERT(kind <= RLVC_SCORE_CHI2);
     if (r1 == 0 || r2 == 0 || c1 == 0 || c2 == 0)
         return 0.0f;
-    if (kind == RLVC_SCORE_GAIN) {
-        float diagonal = cell_gain(total * a, r1 * c1) + cell_gain(total * d, r2 * c2);
-        float other = cell_gain(total * b, r1 * c2) + cell_gain(total * c, r2 * c1);
-        return (diagonal + other) / ((float)(total * total) * LN_2);
-    }
-    float n = (float)(a * d - b * c);
-    if (kind == RLVC_SCORE_GINI) {
-        float ratio = n / (float)total;
-        return 2.0f * (ratio * ratio) / (float)(c1 * c2);
-    }
-    return n / (float)(r1 * r2) * (n / (float)(c1 * c2)) * (float)total;
+    float diagonal = cell_gain(total * a, r1 * c1) + cell_gain(total * d, r2 * c2);
+    float other = cell_gain(total * b, r1 * c2) + cell_gain(total * c, r2 * c1);
+    return (diagonal + other) / ((float)(total * total) * LN_2);
 }

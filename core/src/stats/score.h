@@ -12,14 +12,13 @@
  * amount, |O - E| = |n| / N with n = a d - b c, which integers hold exactly; so nothing here is a
  * difference of large numbers that nearly agree, and binary32 keeps its 24 bits up to N = 2^31 - 1:
  *
- *      information gain, bits a sample   sum over the cells of (O ln(O / E) - (O - E)) / (N ln 2)
- *      decrease of Gini impurity         2 n^2 / (N^2 c1 c2)
- *      Pearson's chi-square              n^2 N / (r1 r2 c1 c2)
+ * The score is the information gain in bits per sample,
  *
- * For one column (c1 and c2 fixed) each is a convex function of the point (a, b), and is 0 exactly
- * on the line n = 0: what cutpoint.c prunes by. Tables that differ by exchanged rows or columns
- * score the same to the last bit (also transposed ones, but for Gini), so that exact ties are ties.
- */
+ *      sum over the cells of (O ln(O / E) - (O - E)) / (N ln 2).
+ *
+ * For one column (c1 and c2 fixed) it is a convex function of the point (a, b), and is 0 exactly on
+ * the line n = 0: cutpoint.c prunes by this. Tables that differ by exchanged rows or columns, and
+ * transposed ones, score the same to the last bit, so that exact ties are ties. */
 #ifndef RLVC_SRC_SCORE_H
 #define RLVC_SRC_SCORE_H
 
@@ -31,10 +30,9 @@
 #define RLVC_SCORE_ERROR (1.0f / 131072.0f)
 
 /* The score of a table, 0 or more; 0 if a row or a column is empty. O(1).
- * @param kind RLVC_SCORE_*
  * @param present_below ... absent_above  a, b, c, d: their sum at most 2^31 - 1 */
-float rlvc_score(uint8_t kind, uint32_t present_below, uint32_t absent_below,
-                 uint32_t present_above, uint32_t absent_above);
+float rlvc_score(uint32_t present_below, uint32_t absent_below, uint32_t present_above,
+                 uint32_t absent_above);
 
 /* p ln(p / q) - (p - q) >= 0, for p >= 0 and q > 0, without cancelling where they nearly agree.
  * O(1).

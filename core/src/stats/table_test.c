@@ -22,7 +22,6 @@
 #include "table_test.h"
 
 #include "../base/float_math.h"
-#include "rlvc/agent.h"
 #include "rlvc/chi2.h"
 #include "score.h"
 #include <stddef.h>
@@ -55,7 +54,7 @@ static float ratio(uint32_t x, uint32_t y) {
 
 /* N g ln 2. */
 static float likelihood(const rlvc_table *t) {
-    float gain = rlvc_score(RLVC_SCORE_GAIN, t->a, t->b, t->c, t->d);
+    float gain = rlvc_score(t->a, t->b, t->c, t->d);
     return (float)(t->a + t->b + t->c + t->d) * (LN_2 * gain);
 }
 

@@ -83,11 +83,8 @@ static int labels_are_sound(const rlvc_agent *agent) {
     return 1;
 }
 
-/* Where `pending` names a class, that was split from this one. (While prioritized sweeping is under
- * way priorities stand there, of which any will do.) */
+/* Where `pending` names a class, that was split from this one. */
 static int pending_is_sound(const rlvc_agent *agent) {
-    if (agent->config.solver == RLVC_SOLVER_PRIORITIZED && agent->learner.phase == RLVC_PHASE_SOLVE)
-        return 1;
     for (uint32_t c = 0; c < agent->tree.classes; c++) {
         uint32_t made = agent->pending[c];
         if (made != 0 &&

@@ -13,7 +13,21 @@
 
 /* ------------------------------------------------------------------ the parts */
 
-static void pass_config(rlvc_stream *s, rlvc_config *config) {
+/* Bytes of fields that the config had in an earlier release.
+ * @return 0 if one of them is not 0: no config of this release is the same. */
+static int pass_reserved(rlvc_stream *s, uint32_t bytes) {
+    uint8_t all = 0;
+    for (uint32_t i = 0; i < bytes; i++) {
+        uint8_t byte = 0;
+        rlvc_stream_u8(s, &byte);
+        all |= byte;
+    }
+    return all == 0;
+}
+
+/* @return 0 if a reserved byte is not 0. */
+static int pass_config(rlvc_stream *s, rlvc_config *config) {
+    int known = 1;
     rlvc_stream_u32(s, &config->actions);
     rlvc_stream_u32(s, &config->capacity);
     rlvc_stream_u32(s, &config->classes);
@@ -24,26 +38,28 @@ static void pass_config(rlvc_stream *s, rlvc_config *config) {
     rlvc_stream_u8(s, &config->criterion);
     rlvc_stream_u8(s, &config->score);
     rlvc_stream_u8(s, &config->solver);
-    rlvc_stream_u8(s, &config->untried);
+    known &= pass_reserved(s, 1); /* untried */
     rlvc_stream_u8(s, &config->continuing);
     rlvc_stream_u8(s, &config->successors);
     rlvc_stream_u8(s, &config->explore);
-    rlvc_stream_u8(s, &config->gate);
+    known &= pass_reserved(s, 1); /* gate */
     rlvc_stream_float(s, &config->discount);
     rlvc_stream_float(s, &config->epsilon);
     rlvc_stream_float(s, &config->alpha);
     rlvc_stream_float(s, &config->alpha_known);
     rlvc_stream_float(s, &config->tolerance);
     rlvc_stream_float(s, &config->learning_rate);
-    rlvc_stream_float(s, &config->optimistic_value);
+    known &= pass_reserved(s, 4); /* optimistic_value */
+    return known;
 }
 
-/* Whose snapshot it is. */
-static void pass_identity(rlvc_stream *s, uint32_t *percept_bytes, uint32_t *feature_bytes,
-                          rlvc_config *config) {
+/* Whose snapshot it is.
+ * @return 0 if a reserved byte is not 0. */
+static int pass_identity(rlvc_stream *s, uint32_t *percept_bytes, uint32_t *feature_bytes,
+                         rlvc_config *config) {
     rlvc_stream_u32(s, percept_bytes);
     rlvc_stream_u32(s, feature_bytes);
-    pass_config(s, config);
+    return pass_config(s, config);
 }
 
 static void pass_counters(rlvc_stream *s, rlvc_agent *agent) {
@@ -186,7 +202,8 @@ static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_mark *mark) {
 static void pass_agent(rlvc_stream *s, rlvc_agent *agent) {
     rlvc_mark mark;
     rlvc_resume_mark(agent, &mark);
-    pass_identity(s, &agent->domain.percept_bytes, &agent->domain.feature_bytes, &agent->config);
+    (void)pass_identity(s, &agent->domain.percept_bytes, &agent->domain.feature_bytes,
+                        &agent->config);
     (void)pass_state(s, agent, &mark);
 }
 
@@ -277,8 +294,11 @@ static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
     if (slot.version != RLVC_SNAPSHOT_VERSION)
         return RLVC_E_VERSION;
     rlvc_stream_load(stream, store, &slot);
-    pass_identity(stream, &info->percept_bytes, &info->feature_bytes, &info->config);
-    return stream->status;
+    memset(&info->config, 0, sizeof info->config);
+    int known = pass_identity(stream, &info->percept_bytes, &info->feature_bytes, &info->config);
+    if (stream->status != RLVC_OK)
+        return stream->status;
+    return known ? RLVC_OK : RLVC_E_MISMATCH;
 }
 
 static int same_float(float a, float b) {
@@ -289,13 +309,11 @@ static int same_config(const rlvc_config *a, const rlvc_config *b) {
     return a->actions == b->actions && a->capacity == b->capacity && a->classes == b->classes &&
            a->features_at_once == b->features_at_once && a->min_samples == b->min_samples &&
            a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
-           a->score == b->score && a->solver == b->solver && a->untried == b->untried &&
-           a->continuing == b->continuing && a->successors == b->successors &&
-           a->explore == b->explore && a->gate == b->gate && same_float(a->discount, b->discount) &&
-           same_float(a->epsilon, b->epsilon) && same_float(a->alpha, b->alpha) &&
-           same_float(a->alpha_known, b->alpha_known) && same_float(a->tolerance, b->tolerance) &&
-           same_float(a->learning_rate, b->learning_rate) &&
-           same_float(a->optimistic_value, b->optimistic_value);
+           a->score == b->score && a->solver == b->solver && a->continuing == b->continuing &&
+           a->successors == b->successors && a->explore == b->explore &&
+           same_float(a->discount, b->discount) && same_float(a->epsilon, b->epsilon) &&
+           same_float(a->alpha, b->alpha) && same_float(a->alpha_known, b->alpha_known) &&
+           same_float(a->tolerance, b->tolerance) && same_float(a->learning_rate, b->learning_rate);
 }
 
 /* Does everything that was loaded hold together? */

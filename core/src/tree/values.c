@@ -15,17 +15,15 @@ void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config
                          ? values->reward
                          : values->value;
     values->actions = config->actions;
-    values->optimistic = config->untried == RLVC_UNTRIED_OPTIMISTIC;
-    values->optimistic_value = config->optimistic_value;
 }
 
 void rlvc_values_clear(rlvc_values *values) {
     for (uint32_t a = 0; a < values->actions; a++) {
-        values->q[a] = values->optimistic ? values->optimistic_value : 0.0f;
+        values->q[a] = 0.0f;
         values->reward[a] = 0.0f;
         values->tried[a] = 0;
     }
-    values->value[0] = values->q[0];
+    values->value[0] = 0.0f;
     values->policy[0] = 0;
     values->trial[0] = 0;
 }

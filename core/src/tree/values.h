@@ -19,8 +19,6 @@ typedef struct rlvc_values {
     uint8_t *policy; /* [classes_max] the greedy action of the last solution */
     uint8_t *trial;  /* [classes_max] the policy under evaluation (policy iteration) */
     uint32_t actions;
-    uint8_t optimistic;     /* 1: an untried pair is worth optimistic_value; 0: it is excluded */
-    float optimistic_value; /* in units of return */
 } rlvc_values;
 
 /* Carves the tables. O(1). */
@@ -42,9 +40,9 @@ void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_c
  * O(actions). */
 void rlvc_values_forget(rlvc_values *values, uint32_t class_id);
 
-/* Is the pair part of the maximum over actions? O(1). */
+/* Is the pair part of the maximum over actions? An untried one is not. O(1). */
 static inline int rlvc_values_counts(const rlvc_values *values, size_t pair) {
-    return values->tried[pair] > 0 || values->optimistic;
+    return values->tried[pair] > 0;
 }
 
 /* The greedy action argmax_a Q(c, a) among the pairs that count; of equals the lowest. If none

@@ -35,16 +35,11 @@ REWARD_MAX = 1000000000000.0
 CRITERION_RETURNS = 0
 CRITERION_RESIDUAL = 1
 SCORE_GAIN = 0
-SCORE_GINI = 1
-SCORE_CHI2 = 2
 SCORE_RANKS = 3
 SOLVER_VALUE_ITERATION = 0
 SOLVER_POLICY_ITERATION = 1
 SOLVER_Q_LEARNING = 2
 SOLVER_SARSA = 3
-SOLVER_PRIORITIZED = 4
-UNTRIED_EXCLUDED = 0
-UNTRIED_OPTIMISTIC = 1
 EXPLORE_UNIFORM = 0
 EXPLORE_DIRECTED = 1
 AGENT_FIXED_BYTES = 1024
@@ -202,18 +197,16 @@ class Config(c.Structure):
         ("criterion", c.c_uint8),
         ("score", c.c_uint8),
         ("solver", c.c_uint8),
-        ("untried", c.c_uint8),
         ("continuing", c.c_uint8),
         ("successors", c.c_uint8),
         ("explore", c.c_uint8),
-        ("gate", c.c_uint8),
+        ("reserved", c.c_uint8 * 2),
         ("discount", c.c_float),
         ("epsilon", c.c_float),
         ("alpha", c.c_float),
         ("alpha_known", c.c_float),
         ("tolerance", c.c_float),
         ("learning_rate", c.c_float),
-        ("optimistic_value", c.c_float),
     ]
 
 

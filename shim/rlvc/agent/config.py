@@ -12,17 +12,15 @@ from .. import _native
 from ..errors import ConfigError
 
 Criterion = Literal["returns", "residual"]
-Score = Literal["gain", "gini", "chi2", "ranks"]
-Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"]
-Untried = Literal["excluded", "optimistic"]
+Score = Literal["gain", "ranks"]
+Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa"]
 Explore = Literal["uniform", "directed"]
 
-# Field: its names, in the order of the constants of agent.h.
+# Field: its names. The name n of field f is the constant F_N of agent.h.
 CHOICES: dict[str, tuple[str, ...]] = {
     "criterion": ("returns", "residual"),
-    "score": ("gain", "gini", "chi2", "ranks"),
-    "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"),
-    "untried": ("excluded", "optimistic"),
+    "score": ("gain", "ranks"),
+    "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa"),
     "explore": ("uniform", "directed"),
 }
 
@@ -52,15 +50,12 @@ class Config:
     criterion : {"residual", "returns"}
         Which classes are aliased (section 4.2.2): by one-step returns on one growing database, or
         by truncated discounted returns on a fresh one each step, as published.
-    score : {"gain", "gini", "chi2", "ranks"}
+    score : {"gain", "ranks"}
         How well a feature explains a partition (section 4.2.3); or, without a partition, the
         rank-sum test of the targets with the feature against those without it (not for a domain
         with its own ``oracle``; ``capacity`` below 2**21).
-    solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa", "prioritized"}
+    solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa"}
         Where the values of the classes come from.
-    untried : {"excluded", "optimistic"}
-        What a class-action pair without interactions is worth to the batch solvers: nothing that
-        counts, or ``optimistic_value``.
     continuing : bool
         Whether the window of definition 1 runs on through a terminated interaction.
     successors : bool or None
@@ -71,9 +66,6 @@ class Config:
         How to explore: one action in two leads to the nearest class-action pair that was little
         tried, the other is drawn with preference for what was seldom tried in the class; or all
         alike, as published.
-    gate : bool
-        Whether a class is split by its targets only if that raises the estimated return (residual
-        criterion; not with an own oracle). Splits by what follows are left alone.
     discount : float
         gamma of equation (1), [0, 1].
     epsilon : float
@@ -88,8 +80,6 @@ class Config:
         Of a batch solver's values, in units of reward, (0, 1e12].
     learning_rate : float
         Of the incremental solvers, (0, 1].
-    optimistic_value : float
-        In units of return, within +-1e12.
 
     Notes
     -----
@@ -107,18 +97,15 @@ class Config:
     criterion: Criterion = "residual"
     score: Score = "gain"
     solver: Solver = "value_iteration"
-    untried: Untried = "excluded"
     continuing: bool = False
     successors: bool | None = None
     explore: Explore = "directed"
-    gate: bool = False
     discount: float = 0.9
     epsilon: float = 0.9
     alpha: float = 0.01
     alpha_known: float = 1.0
     tolerance: float = 0.01
     learning_rate: float = 0.1
-    optimistic_value: float = 0.0
 
     def replace(self, **changes: object) -> Config:
         """Give a copy with some fields changed.
@@ -140,7 +127,7 @@ def _native_value(field: str, kind: object, value: object) -> object:
     if field in CHOICES:
         if value not in CHOICES[field]:
             raise ConfigError(f"{field}: {value!r} is none of {', '.join(CHOICES[field])}")
-        return CHOICES[field].index(str(value))
+        return getattr(_native, f"{field}_{value}".upper())
     try:
         if kind is ctypes.c_float:
             number = float(value)  # type: ignore[arg-type]
