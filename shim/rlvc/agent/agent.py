@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import whole
 from ..domains.domain import Domain, Percept
 from ..errors import Error, RangeError, ReenteredError, RewardError, SnapshotError
 from .batch import Batch, native_log
@@ -210,11 +211,11 @@ class Agent(Queries):
         Use the residual criterion with vectors: runs of exploitation mix the environments, which
         the criterion of returns cannot use.
         """
-        packed = self._domain.pack_many(percepts)
+        packed = self._pack_many(percepts)
         count = len(packed)
         choices = np.empty(count, CHOICE)
         native = _native.ShimLog(packed.ctypes.data, None, choices.ctypes.data)
-        native.count, native.bytes = count, self._domain.percept_bytes
+        native.count, native.bytes = count, self._native_domain.percept_bytes
         self._loop("rlvc_shim_act", native)
         return choices
 
@@ -254,8 +255,10 @@ class Agent(Queries):
             The replay buffer is full and in use by a learning step. Earlier interactions were
             stored.
         """
-        arrays = (percepts, choices, rewards, next_percepts, ends)
-        native = native_log(self._domain, self._config.actions, *arrays)
+        before, after = self._pack_many(percepts), self._pack_many(next_percepts)
+        size = self._native_domain.percept_bytes
+        arrays = (before, choices, rewards, after, ends)
+        native = native_log(size, self._config.actions, *arrays)
         native.resume = bool(resume)
         self._loop("rlvc_shim_observe", native)
 
@@ -311,11 +314,10 @@ class Agent(Queries):
         Other threads run meanwhile: the interpreter's lock is released.
         """
         progress = _native.Progress()
-        work = 0
+        portion, work = _SLICE, 0
+        if budget is not None:
+            portion = whole("budget", budget, _native.BUDGET_MIN, 2**32 - 1, RangeError)
         while True:
-            portion = _SLICE if budget is None else budget
-            if not isinstance(portion, int) or not _native.BUDGET_MIN <= portion < 2**32:
-                raise RangeError(f"budget: {portion!r} is not in [{_native.BUDGET_MIN}, 2**32 - 1]")
             self._check(self._long("rlvc_learn", portion, _byref(progress)))
             work += progress.work
             if progress.done or budget is not None:

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import whole
 from ..domains.domain import Domain
 from ..errors import ArrayError, RangeError
 from .results import CHOICE
@@ -20,7 +21,9 @@ if TYPE_CHECKING:
 
 _DTYPES = {name: np.dtype(name) for name in ("float32", "uint8", "uint32")} | {"CHOICE": CHOICE}
 
-_QUICK_BYTES = 4096  # up to this many bytes of percepts take microseconds: keep the interpreter's lock
+_QUICK_BYTES = (
+    4096  # up to this many bytes of percepts take microseconds: keep the interpreter's lock
+)
 
 
 def checked(array: Any, name: str, dtype: str, shape: tuple[int, ...]) -> npt.NDArray[Any]:
@@ -53,7 +56,7 @@ def checked(array: Any, name: str, dtype: str, shape: tuple[int, ...]) -> npt.ND
 
 
 def native_log(
-    domain: Domain,
+    percept_bytes: int,
     actions: int,
     percepts: npt.NDArray[Any],
     choices: npt.NDArray[Any],
@@ -65,11 +68,12 @@ def native_log(
 
     Parameters
     ----------
-    domain : Domain
+    percept_bytes : int
+        Size of a packed percept.
     actions : int
         Number of actions.
     percepts, choices, rewards, next_percepts, ends : ndarray, [n, ...]
-        As for :meth:`rlvc.Agent.observe_many`.
+        As for :meth:`rlvc.Agent.observe_many`, with packed percepts.
 
     Returns
     -------
@@ -80,16 +84,15 @@ def native_log(
     ArrayError
         An array has the wrong dtype or shape, or is not C-contiguous.
     """
-    before, after = domain.pack_many(percepts), domain.pack_many(next_percepts)
-    count = len(before)
-    if len(after) != count:
-        raise ArrayError(f"next_percepts: {len(after)}, expected {count}")
+    count = len(percepts)
+    if len(next_percepts) != count:
+        raise ArrayError(f"next_percepts: {len(next_percepts)}, expected {count}")
     checked(choices, "choices", "CHOICE", (count,))
     checked(rewards, "rewards", "float32", (count,))
     checked(ends, "ends", "uint8", (count,))
-    arrays = (before, after, choices, rewards, ends)
+    arrays = (percepts, next_percepts, choices, rewards, ends)
     pointers = (array.ctypes.data for array in arrays)
-    native = _native.ShimLog(*pointers, count, domain.percept_bytes, actions)
+    native = _native.ShimLog(*pointers, count, percept_bytes, actions)
     native._keeps = arrays
     return native
 
@@ -146,9 +149,8 @@ class Batch:
     """
 
     def __init__(self, agent: Agent, count: int) -> None:
-        if not isinstance(count, int) or not 1 <= count < 2**31:
-            raise RangeError(f"count: {count!r} is not in [1, 2**31 - 1]")
-        domain = agent.domain
+        count = whole("count", count, 1, 2**31 - 1, RangeError)
+        domain, size = agent.domain, int(agent._native_domain.percept_bytes)
         percepts = ((count, *domain.percept_shape), domain.percept_dtype)
         numbers = (((count,), dtype) for dtype in (CHOICE, np.float32, np.uint8))
         # Views: numpy refuses to resize an array that has one.
@@ -158,13 +160,15 @@ class Batch:
         self._percepts, self._next_percepts = before, after
         self._choices, self._rewards, self._ends = choices, rewards, ends
         self._agent = agent
+        self._domain = domain
+        self._checked = type(domain).check_many is not Domain.check_many
         self._count = count
         arrays = (before, choices, rewards, after, ends)
-        self._native = native_log(domain, agent.config.actions, *arrays)
+        self._native = native_log(size, agent.config.actions, *arrays)
         self._taken: int | None = None
         self._done = ctypes.c_size_t()
         self._log, self._stopped = ctypes.byref(self._native), ctypes.byref(self._done)
-        if count * domain.percept_bytes <= _QUICK_BYTES:
+        if count * size <= _QUICK_BYTES:
             self._act, self._observe = _native.call.rlvc_shim_act, _native.call.rlvc_shim_observe
         else:
             self._act = lambda _, *rest: agent._long("rlvc_shim_act", *rest)
@@ -178,10 +182,9 @@ class Batch:
 
     def _take(self, count: int | None) -> None:
         """Let C see the first `count` environments, or all of them."""
-        if count is not None and (not isinstance(count, int) or not 0 <= count <= self._count):
-            raise RangeError(f"count: {count!r} is not in [0, {self._count}]")
+        number = self._count if count is None else whole("count", count, 0, self._count, RangeError)
         self._taken = -1  # should Ctrl-C come before the last line
-        self._native.count = self._count if count is None else count
+        self._native.count = number
         self._taken = count
 
     def act(self, count: int | None = None) -> npt.NDArray[Any]:
@@ -201,11 +204,15 @@ class Batch:
         ------
         RangeError
             ``count`` is out of range.
+        PerceptError
+            A percept has an invalid value, such as NaN.
         BusyError
             The replay buffer is full and in use by a learning step.
         """
         if count is not self._taken:
             self._take(count)
+        if self._checked:
+            self._domain.check_many(self._percepts[:count])
         status = self._act(self._agent._handle, self._log, self._stopped)
         if status:
             self._agent._fail(status, self._done.value)
@@ -224,12 +231,18 @@ class Batch:
         RewardError, RangeError
             A reward, an action or an end is out of range. The message names the interaction;
             nothing was stored.
+        PerceptError
+            A percept has an invalid value, such as NaN; nothing was stored.
         BusyError
             The replay buffer is full and in use by a learning step. Earlier interactions were
             stored.
         """
         if count is not self._taken:
             self._take(count)
+        if self._checked:
+            goes_on = self._ends[:count] != _native.TERMINATED
+            self._domain.check_many(self._percepts[:count])
+            self._domain.check_many(self._next_percepts[:count][goes_on])
         status = self._observe(self._agent._handle, self._log, self._stopped)
         if status:
             self._agent._fail(status, self._done.value)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import whole
 from ..errors import ArrayError, BlockError, RangeError
 
 _byref = ctypes.byref
@@ -88,9 +89,8 @@ def fewest(
             raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, not bool[n, ...]")
     if allowed.shape[1] > 64:
         raise RangeError(f"allowed: {allowed.shape[1]} actions, not 64 at most")
-    for name, number, most in (("entries", entries, 2**28), ("effort", effort, 2**39)):
-        if not isinstance(number, int) or not 1 <= number <= most:
-            raise RangeError(f"{name}: {number!r} is not in [1, {most}]")
+    entries = whole("entries", entries, 1, 2**28, RangeError)
+    effort = whole("effort", effort, 1, 2**39, RangeError)
     words, sets = _packed(rows), _packed(allowed)
     task = _native.FewestTask(words.ctypes.data, sets.ctypes.data, *rows.shape, entries, 0, effort)
     size, tree = ctypes.c_size_t(), _native.FewestTree()

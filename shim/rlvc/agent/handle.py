@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+from collections.abc import Callable
 from types import TracebackType
 from typing import Any, Literal, TypeVar
 
@@ -12,9 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import whole
 from ..domains.bits import Bits
 from ..domains.callbacks import Guard
-from ..domains.domain import Domain
+from ..domains.descriptors import Descriptors
+from ..domains.domain import Domain, checked_pack, checked_pack_many
+from ..domains.thresholds import Thresholds
 from ..errors import (
     BlockError,
     BusyError,
@@ -67,10 +71,10 @@ class Handle:
         snapshot: bytes | None,
     ) -> None:
         """Allocate memory and make an agent in it: a new one, or that of a snapshot."""
-        if isinstance(domain, int):
+        if not isinstance(domain, Domain):
             domain = Bits(domain)
-        if isinstance(config, int):
-            config = Config(actions=config)
+        if not isinstance(config, Config):
+            config = Config(actions=whole("actions", config, 1, 255))
         if changes:
             try:
                 config = config.replace(**changes)
@@ -79,8 +83,13 @@ class Handle:
         self._domain = domain
         self._config = config
         self._guard = Guard()
-        self._pack = domain.pack
+        self._pack: Callable[[Any], bytes] = domain.pack
+        self._pack_many: Callable[[Any], npt.NDArray[Any]] = domain.pack_many
         self._native_domain = domain.native(self._guard)
+        if type(domain) not in (Bits, Descriptors, Thresholds):
+            percept_bytes = int(self._native_domain.percept_bytes)
+            self._pack = checked_pack(domain.pack, percept_bytes)
+            self._pack_many = checked_pack_many(domain.pack_many, percept_bytes)
         self._native_config = to_native(config, self._native_domain)
         references = (_byref(self._native_config), _byref(self._native_domain))
         size = ctypes.c_size_t()

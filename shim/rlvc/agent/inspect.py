@@ -72,7 +72,7 @@ class Queries(Handle):
         return Prediction(self._class.value, self._action.value)
 
     def _predict_many(self, percepts: Any, out: Any) -> Prediction:
-        packed = self._domain.pack_many(percepts)
+        packed = self._pack_many(percepts)
         count = len(packed)
         if out is None:
             out = (np.empty(count, np.uint32), np.empty(count, np.uint32))
@@ -87,7 +87,7 @@ class Queries(Handle):
         status = self._long(
             "rlvc_shim_predict",
             packed.ctypes.data,
-            self._domain.percept_bytes,
+            self._native_domain.percept_bytes,
             count,
             *pointers,
             _byref(done),
@@ -146,13 +146,13 @@ class Queries(Handle):
     def splits(self) -> list[Split]:
         """The splits of the tree, oldest first."""
         native = _native.Split()
-        record = ctypes.create_string_buffer(self._domain.feature_bytes)
+        record = ctypes.create_string_buffer(self._native_domain.feature_bytes)
         splits = []
         for index in range(self.classes - 1):
             status = _native.call.rlvc_split_at(self._handle, index, _byref(native), record)
             self._check(status)
             feature = self._domain.feature(record.raw)
-            action = None if native.action == self._config.actions else native.action
+            action = native.action if native.action < self._config.actions else None
             splits.append(
                 Split(
                     index,
@@ -162,6 +162,7 @@ class Queries(Handle):
                     native.step,
                     action,
                     native.samples,
+                    native.action > self._config.actions,
                     native.log_tests,
                     native.score,
                     native.log_p,

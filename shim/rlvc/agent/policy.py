@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import real, whole
 from ..domains.domain import Percept
-from ..errors import BlockError, ConfigError
+from ..errors import BlockError
 from .handle import Handle
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ class Policy(Handle):
         )
         self._domain, self._config, self._guard = agent._domain, agent._config, agent._guard
         self._native_domain = agent._native_domain
-        self._pack = agent._pack
+        self._pack, self._pack_many = agent._pack, agent._pack_many
         self._block = block
         self._handle = self._address = policy.value
         self._memory_bytes = size.value
@@ -132,12 +133,12 @@ class Policy(Handle):
             if status:
                 self._fail(status)
             return self._action.value
-        packed = self._domain.pack_many(percept)  # type: ignore[arg-type]
+        packed = self._pack_many(percept)
         actions, done = np.empty(len(packed), np.uint32), ctypes.c_size_t()
         status = self._long(
             "rlvc_shim_policy_act",
             packed.ctypes.data,
-            self._domain.percept_bytes,
+            self._native_domain.percept_bytes,
             len(packed),
             actions.ctypes.data,
             _byref(done),
@@ -153,9 +154,9 @@ class Policy(Handle):
 
 def _set(native: _native.PolicyConfig, field: str, value: Any) -> None:
     """Set a field of the config; C checks its range."""
-    try:
-        if field != "tolerance" and not 0 <= value < 2**32 * (2**32 if field == "effort" else 1):
-            raise ValueError
-        setattr(native, field, value)
-    except (TypeError, ValueError):
-        raise ConfigError(f"{field}: {value!r:.80} is out of range") from None
+    if field == "tolerance":
+        native.tolerance = real(field, value)
+    else:
+        setattr(
+            native, field, whole(field, value, 0, 2**64 - 1 if field == "effort" else 2**32 - 1)
+        )

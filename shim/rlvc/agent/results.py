@@ -114,9 +114,12 @@ class Split:
     step : int
         The learning step k of the split.
     action : int or None
-        The action whose targets showed the aliasing; None: all actions together.
+        The action whose targets showed the aliasing; None: the targets of all actions together, or
+        what followed them.
     samples : int
         Number of samples of that class and action, or of the class.
+    successors : bool
+        Whether what followed the actions showed the aliasing, and not their targets.
     log_tests, score, log_p : float
         ln of the number of tests that the p-value is corrected for; the score; ln of the corrected
         p-value.
@@ -129,6 +132,7 @@ class Split:
     step: int
     action: int | None
     samples: int
+    successors: bool
     log_tests: float
     score: float
     log_p: float

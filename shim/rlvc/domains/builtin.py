@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..errors import ConfigError, PerceptError
+from ..errors import ConfigError, DomainError, PerceptError
 from .callbacks import Guard
 from .domain import Domain
 
@@ -42,10 +42,17 @@ class BuiltinDomain(Domain):
         """Pickle the parameters only."""
         return type(self), self.parameters
 
+    def _record(self, feature: Any) -> bytes:
+        """Return the bytes of a feature."""
+        value = np.asarray(feature)
+        if value.dtype != self.feature_dtype or value.shape != ():
+            raise DomainError(f"{feature!r:.80} is not a feature of {type(self).__name__}")
+        return value.tobytes()
+
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
         """Whether a percept exhibits a feature."""
         present = ctypes.c_uint8()
-        record = np.ascontiguousarray(feature).tobytes()
+        record = self._record(feature)
         if self._domain.exhibits(self._domain.ctx, self.pack(percept), record, present):
             raise PerceptError("the percept is not valid in this domain")
         return bool(present.value)
@@ -53,6 +60,8 @@ class BuiltinDomain(Domain):
     def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Return the first candidates of the library's search for a class with these percepts."""
         records = self.pack_many(percepts)
+        if len(records) == 0:
+            return np.zeros(0, self.feature_dtype)
         pairs = np.zeros((len(records), 2), np.uint32)
         pairs[:, 1] = np.arange(len(records))
         samples = _native.Samples(
@@ -69,7 +78,7 @@ class BuiltinDomain(Domain):
     def name(self, feature: Any) -> str:
         """Return the name of a feature."""
         text = ctypes.create_string_buffer(_native.NAME_BYTES)
-        record = np.ascontiguousarray(feature).tobytes()
+        record = self._record(feature)
         address = ctypes.cast(text, ctypes.c_void_p)
         self._domain.name(self._domain.ctx, record, address, _native.NAME_BYTES)
         return text.value.decode()

@@ -102,16 +102,23 @@ class Descriptors(BuiltinDomain):
             record = len(percept).to_bytes(4, sys.byteorder) + percept.tobytes()
             return record.ljust(self.percept_bytes, b"\0")
         record = super().pack(percept)
-        if int.from_bytes(record[:4], sys.byteorder) > self.points:
-            raise PerceptError(f"a percept has more than {self.points} vectors")
+        self.check_many(np.frombuffer(record, np.uint8)[None])
         return record
 
     def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Like :meth:`Domain.pack_many`, for packed percepts; also checks their numbers of vectors."""
         packed = super().pack_many(percepts)
+        self.check_many(packed)
+        return packed
+
+    def check_many(self, packed: npt.NDArray[Any]) -> None:
+        """Check the numbers of vectors and their elements."""
         if (packed[:, :4].copy().view(np.uint32) > self.points).any():
             raise PerceptError(f"a percept has more than {self.points} vectors")
-        return packed
+        size = 4 + self.points * self.dimensions * self.vector_dtype.itemsize
+        vectors = np.ascontiguousarray(packed[:, 4:size]).view(self.vector_dtype)
+        if not np.isfinite(vectors).all():
+            raise PerceptError("a percept has an element that is not finite")
 
     def is_one(self, percept: Any) -> bool:
         """Whether this is a single percept, not an array of packed percepts."""

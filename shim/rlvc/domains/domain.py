@@ -11,10 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..errors import ConfigError, PerceptError
+from ..checks import whole
+from ..errors import ConfigError, DomainError, PerceptError
 from .callbacks import Callbacks, Guard
 
 Percept: TypeAlias = "bytes | npt.NDArray[Any]"
+
+_SIZES = {"percept_dtype", "percept_shape", "percept_bytes", "feature_dtype", "feature_bytes"}
 
 
 class Domain(abc.ABC):
@@ -58,14 +61,16 @@ class Domain(abc.ABC):
         feature_dtype: npt.DTypeLike = np.int32,
         features_max: int = 0,
     ) -> None:
-        self.percept_dtype = np.dtype(percept_dtype)
-        self.percept_shape = tuple(percept_shape)
-        self.feature_dtype = np.dtype(feature_dtype)
-        self.features_max = features_max
+        try:
+            self.percept_dtype = np.dtype(percept_dtype)
+            self.feature_dtype = np.dtype(feature_dtype)
+            shape = tuple(percept_shape)
+        except (TypeError, ValueError) as error:
+            raise ConfigError(f"the dtypes and the shape are numpy's: {error}") from None
+        self.percept_shape = tuple(whole("percept_shape", size, 0, 2**20) for size in shape)
+        self.features_max = whole("features_max", features_max, 0, 2**32 - 1)
         if self.percept_dtype.hasobject or self.feature_dtype.hasobject:
-            raise ConfigError(
-                "the dtypes of percepts and features must not contain Python objects"
-            )
+            raise ConfigError("the dtypes of percepts and features must not contain Python objects")
         self.percept_bytes = self.percept_dtype.itemsize * int(
             np.prod(self.percept_shape, dtype=int)
         )
@@ -74,6 +79,12 @@ class Domain(abc.ABC):
             raise ConfigError(f"a percept has {self.percept_bytes} bytes, allowed are [1, 2**20]")
         if not 1 <= self.feature_bytes <= 2**16:
             raise ConfigError(f"a feature has {self.feature_bytes} bytes, allowed are [1, 2**16]")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set an attribute, but keep the types and sizes that agents rely on."""
+        if name in _SIZES and name in self.__dict__:
+            raise DomainError(f"{name}: the types and sizes of a domain cannot be changed")
+        super().__setattr__(name, value)
 
     @abc.abstractmethod
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
@@ -136,7 +147,9 @@ class Domain(abc.ABC):
         """
         if isinstance(percept, bytes):
             if len(percept) != self.percept_bytes:
-                raise PerceptError(f"a percept has {len(percept)} bytes, expected {self.percept_bytes}")
+                raise PerceptError(
+                    f"a percept has {len(percept)} bytes, expected {self.percept_bytes}"
+                )
             return percept
         if not isinstance(percept, np.ndarray | np.generic):
             raise PerceptError(f"a percept must be bytes or an array, not {type(percept).__name__}")
@@ -172,10 +185,11 @@ class Domain(abc.ABC):
                 f"{self.percept_dtype}{['n', *self.percept_shape]}"
             )
         if not percepts.flags.c_contiguous:
-            raise PerceptError(
-                "percepts are not C-contiguous: use numpy.ascontiguousarray"
-            )
+            raise PerceptError("percepts are not C-contiguous: use numpy.ascontiguousarray")
         return percepts
+
+    def check_many(self, packed: npt.NDArray[Any]) -> None:  # noqa: B027 - any value may be valid
+        """Raise :class:`~rlvc.errors.PerceptError` if a percept of an array has an invalid value."""
 
     def is_one(self, percept: Any) -> bool:
         """Whether this is a single percept, not an array of percepts."""
@@ -197,6 +211,59 @@ class Domain(abc.ABC):
         -------
         rlvc_domain
         """
-        if not isinstance(self.features_max, int) or not 0 <= self.features_max < 2**32:
-            raise ConfigError(f"features_max: {self.features_max!r} is out of range")
         return Callbacks(self, guard).native()
+
+
+def checked_pack(pack: Callable[[Any], Any], size: int) -> Callable[[Any], bytes]:
+    """Return a ``pack`` method of a user-defined domain, whose result is checked.
+
+    Parameters
+    ----------
+    pack : callable
+    size : int
+        The size of a packed percept in bytes.
+
+    Returns
+    -------
+    callable
+    """
+
+    def checked(percept: Any) -> bytes:
+        packed = pack(percept)
+        if type(packed) is not bytes or len(packed) != size:
+            raise DomainError(f"pack() returned {packed!r:.80}, expected {size} bytes")
+        return packed
+
+    return checked
+
+
+def checked_pack_many(
+    pack_many: Callable[[Any], Any], size: int
+) -> Callable[[Any], npt.NDArray[Any]]:
+    """Return a ``pack_many`` method of a user-defined domain, whose result is checked.
+
+    Parameters
+    ----------
+    pack_many : callable
+    size : int
+        The size of a packed percept in bytes.
+
+    Returns
+    -------
+    callable
+    """
+
+    def checked(percepts: Any) -> npt.NDArray[Any]:
+        packed = pack_many(percepts)
+        if (
+            not isinstance(packed, np.ndarray)
+            or packed.ndim == 0
+            or packed.nbytes != len(packed) * size
+            or not packed.flags.c_contiguous
+        ):
+            raise DomainError(
+                f"pack_many() returned {packed!r:.80}, expected an array of n times {size} bytes"
+            )
+        return packed
+
+    return checked

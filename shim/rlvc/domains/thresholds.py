@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import flag, whole
-from ..errors import PerceptError
+from ..errors import DomainError, PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
 
@@ -56,16 +56,22 @@ class Thresholds(BuiltinDomain):
     def pack(self, percept: Percept) -> bytes:
         """Like :meth:`Domain.pack`; also checks the range of the elements."""
         record = super().pack(percept)
-        self._check(np.frombuffer(record, np.float32))
+        self.check_many(np.frombuffer(record, np.float32))
         return record
 
     def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Like :meth:`Domain.pack_many`; also checks the range of the elements."""
         packed = super().pack_many(percepts)
-        self._check(packed)
+        self.check_many(packed)
         return packed
 
-    @staticmethod
-    def _check(numbers: npt.NDArray[Any]) -> None:
-        if not (np.abs(numbers) <= _native.THRESHOLDS_NUMBER_MAX).all():  # neither is a NaN
+    def _record(self, feature: Any) -> bytes:
+        record = super()._record(feature)
+        if max(int(feature["component"]), int(feature["other"])) >= self.components:
+            raise DomainError(f"{feature!r:.80} tests a component that there is not")
+        return record
+
+    def check_many(self, packed: npt.NDArray[Any]) -> None:
+        """Check the range of the elements."""
+        if not (np.abs(packed) <= _native.THRESHOLDS_NUMBER_MAX).all():  # neither is a NaN
             raise PerceptError("a percept has an element that is NaN or beyond 1e15")

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: MIT
+"""What a domain returns, and what it is asked, is checked before C reads it."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from test_errors import Corridor
+
+import rlvc
+from rlvc import errors
+
+READY = [rlvc.Bits(5), rlvc.Thresholds(2), rlvc.Descriptors(4, 2, 0.5)]
+
+
+@pytest.mark.parametrize("domain", READY)
+def test_no_percepts_have_no_candidates_but_all_bits(domain):
+    none = np.zeros((0, *domain.percept_shape), domain.percept_dtype)
+    found = domain.candidates(none)
+    assert found.dtype == domain.feature_dtype
+    assert len(found) == (5 if isinstance(domain, rlvc.Bits) else 0)
+
+
+class Packing(Corridor):
+    """Packs percepts as it is told."""
+
+    def __init__(self, one, many):
+        super().__init__()
+        self.one, self.many = one, many
+
+    def pack(self, percept):
+        return self.one
+
+    def pack_many(self, percepts):
+        return self.many
+
+
+MANY = [
+    None, b"", [1, 2], np.zeros((4, 2), np.uint8), np.zeros((4, 0), np.uint8), np.zeros(4, np.uint16),
+    np.zeros((4, 2), np.uint8)[:, :1], np.uint8(3),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("packed", [b"", bytes(2), None, "x", bytearray(1), np.zeros(1, np.uint8)])
+def test_a_pack_that_returns_something_else(packed):
+    agent = rlvc.Agent(Packing(packed, None), 2)
+    for call in (agent.begin, agent.predict, lambda percept: agent.observe(0, 0.0, percept)):
+        with pytest.raises(errors.DomainError, match=r"pack\(\) returned"):
+            call(np.zeros(1, np.uint8))
+
+
+@pytest.mark.parametrize("packed", MANY, ids=repr)
+def test_a_pack_many_that_returns_something_else(packed):
+    agent = rlvc.Agent(Packing(b"", packed), 2)
+    percepts = np.zeros((4, 1), np.uint8)
+    log = (np.zeros(4, rlvc.CHOICE), np.zeros(4, np.float32), percepts, np.zeros(4, np.uint8))
+    for call in (
+        agent.predict,
+        agent.act_many,
+        lambda percepts: agent.observe_many(percepts, *log),
+    ):
+        with pytest.raises(errors.DomainError, match=r"pack_many\(\) returned"):
+            call(percepts)
+
+
+@pytest.mark.parametrize("domain", [*READY, Corridor()])
+def test_types_and_sizes_stay(domain):
+    for name in (
+        "percept_dtype",
+        "percept_shape",
+        "percept_bytes",
+        "feature_dtype",
+        "feature_bytes",
+    ):
+        with pytest.raises(errors.DomainError, match=name):
+            setattr(domain, name, getattr(domain, name))
+    for other in (copy.copy(domain), pickle.loads(pickle.dumps(domain))):
+        assert other.percept_bytes == domain.percept_bytes
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("no such type",), (object,), (np.uint8, 3), (np.uint8, (2.5,)), (np.uint8, (-1,)), (np.uint8, (0,)),
+        (np.uint8, (2**21,)), (np.uint8, (1,), "none"), (np.uint8, (1,), np.int8, -1),
+        (np.uint8, (1,), np.int8, 2**32), (np.uint8, (1,), np.int8, "many"),
+    ],
+    ids=repr,
+)  # fmt: skip
+def test_wrong_types_and_sizes(arguments):
+    class Other(Corridor):
+        def __init__(self):
+            rlvc.Domain.__init__(self, *arguments)
+
+    with pytest.raises(errors.ConfigError):
+        Other()
+
+
+@pytest.mark.parametrize(
+    "value", ["3", 3.5, None, 0, -1, 2**32 + 3, 2**70, [3], True, np.float32(3)]
+)
+def test_wrong_parameters_of_domains(value):
+    for make in (
+        rlvc.Bits, rlvc.Thresholds, lambda v: rlvc.Descriptors(v, 2, 0.5),
+        lambda v: rlvc.Descriptors(4, v, 0.5), lambda v: rlvc.Descriptors(4, 2, 0.5, "float", v),
+        lambda v: rlvc.Descriptors(4, 2, 0.5, "float", 4, v), lambda v: rlvc.Agent(v, 2),
+        lambda v: rlvc.Agent(3, v),
+    ):  # fmt: skip
+        with pytest.raises(errors.ConfigError):
+            make(value)
+    for value in ("x", None, float("nan"), float("inf"), 0.0, -1.0, [1.0, 2.0]):
+        with pytest.raises(errors.ConfigError):
+            rlvc.Descriptors(4, 2, value)
+
+
+def test_numbers_of_numpy_are_numbers():
+    agent = rlvc.Agent(np.uint8(5), np.int64(2), seed=np.uint32(7), discount=np.float32(0.5))
+    agent.begin(bytes(1))
+    agent.observe(np.int8(1), np.float64(1.0), bytes(1), terminated=np.bool_(True))
+    assert agent.learn(np.int64(1000)).done
+    assert agent.batch(np.int32(3)).act(np.int16(2)).shape == (2,)
+
+
+def test_features_that_are_none_of_the_domain():
+    thresholds, descriptors = READY[1:]
+    beyond = np.zeros((), thresholds.feature_dtype)
+    beyond["component"] = 2
+    percepts = {thresholds: np.ones(2, np.float32), descriptors: np.ones((4, 2), np.float32)}
+    for domain, percept in percepts.items():
+        for feature in (np.uint8(0), 3, "x", None, np.zeros(2, domain.feature_dtype), beyond):
+            with pytest.raises(errors.DomainError):
+                domain.exhibits(percept, feature)
+            with pytest.raises(errors.DomainError):
+                domain.name(feature)
+
+
+def packed(numbers):
+    """A record of descriptors with one vector."""
+    return (1).to_bytes(4, "little") + np.array([*numbers, *[0.0] * 6], np.float32).tobytes()
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf])
+def test_numbers_that_are_none(number):
+    agent = rlvc.Agent(rlvc.Descriptors(4, 2, 0.5), 2)
+    agent.begin(packed([1.0, 2.0]))
+    records = np.frombuffer(packed([1.0, number]), np.uint8)[None]
+    for call in (agent.begin, agent.predict):
+        for percept in (packed([1.0, number]), np.array([[1.0, number]], np.float32)):
+            with pytest.raises(errors.PerceptError):
+                call(percept)
+    with pytest.raises(errors.PerceptError):
+        agent.predict(records)
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, 2e15])
+def test_batches_refuse_what_is_no_number(number):
+    agent = rlvc.Agent(rlvc.Thresholds(2), 2, capacity=100)
+    batch = agent.batch(4)
+    batch.act()
+    batch.observe()
+    for array, calls in (
+        (batch.percepts, (batch.act, batch.observe)),
+        (batch.next_percepts, (batch.observe,)),
+    ):
+        array[1, 1] = number
+        for call in calls:
+            with pytest.raises(errors.PerceptError):
+                call()
+        call(1)  # that of the other environments
+        array[1, 1] = 0.0
+    batch.next_percepts[1, 1] = number  # nobody looks at it after the end
+    batch.ends[1] = 1
+    batch.observe()
+    assert agent.statistics.interactions == 4 + 1 + 1 + 4
+    assert agent.learn().done
+
+
+def test_the_action_of_a_split():
+    """Nothing is ever paid, but one bit says what the other will be: only what follows shows that."""
+    agent = rlvc.Agent(2, 2, epsilon=1.0, capacity=4000, successors=True)
+    random = np.random.default_rng(1)
+    percept = 0
+    agent.begin(bytes([percept]))
+    for _ in range(2000):
+        choice = agent.act()
+        following = int(random.integers(2)) | ((percept & 1) ^ choice.action) << 1
+        agent.observe(choice, 0.0, bytes([following]))
+        percept = following
+    agent.learn()
+    splits = agent.splits
+    assert {split.action for split in splits} <= {None, 0, 1}
+    assert splits
+    assert all(split.successors and split.action is None for split in splits)
