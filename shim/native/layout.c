@@ -10,8 +10,8 @@
 #include "rlvc/descriptors.h"
 #include "rlvc/domain.h"
 #include "rlvc/export.h"
-#include "rlvc/fewest.h"
 #include "rlvc/log.h"
+#include "rlvc/min_tree.h"
 #include "rlvc/policy.h"
 #include "rlvc/rlvc.h"
 #include "rlvc/snapshot.h"
@@ -103,23 +103,6 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_export_info, leaves)},
     {FIELD(rlvc_export_info, compact)},
     {FIELD(rlvc_export_info, bytes)},
-    {SIZE(rlvc_fewest_task)},
-    {FIELD(rlvc_fewest_task, row)},
-    {FIELD(rlvc_fewest_task, allowed)},
-    {FIELD(rlvc_fewest_task, rows)},
-    {FIELD(rlvc_fewest_task, features)},
-    {FIELD(rlvc_fewest_task, entries)},
-    {FIELD(rlvc_fewest_task, reserved)},
-    {FIELD(rlvc_fewest_task, effort)},
-    {SIZE(rlvc_fewest_split)},
-    {FIELD(rlvc_fewest_split, leaf)},
-    {FIELD(rlvc_fewest_split, feature)},
-    {SIZE(rlvc_fewest_tree)},
-    {FIELD(rlvc_fewest_tree, split)},
-    {FIELD(rlvc_fewest_tree, action)},
-    {FIELD(rlvc_fewest_tree, leaves)},
-    {FIELD(rlvc_fewest_tree, exact)},
-    {FIELD(rlvc_fewest_tree, reserved)},
     {SIZE(rlvc_log_writer)},
     {FIELD(rlvc_log_writer, write)},
     {FIELD(rlvc_log_writer, ctx)},
@@ -159,6 +142,23 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_log_reader, counting)},
     {FIELD(rlvc_log_reader, linked)},
     {FIELD(rlvc_log_reader, sequence)},
+    {SIZE(rlvc_min_tree_task)},
+    {FIELD(rlvc_min_tree_task, row)},
+    {FIELD(rlvc_min_tree_task, allowed)},
+    {FIELD(rlvc_min_tree_task, rows)},
+    {FIELD(rlvc_min_tree_task, features)},
+    {FIELD(rlvc_min_tree_task, entries)},
+    {FIELD(rlvc_min_tree_task, reserved)},
+    {FIELD(rlvc_min_tree_task, effort)},
+    {SIZE(rlvc_min_tree_split)},
+    {FIELD(rlvc_min_tree_split, leaf)},
+    {FIELD(rlvc_min_tree_split, feature)},
+    {SIZE(rlvc_min_tree_result)},
+    {FIELD(rlvc_min_tree_result, split)},
+    {FIELD(rlvc_min_tree_result, action)},
+    {FIELD(rlvc_min_tree_result, leaves)},
+    {FIELD(rlvc_min_tree_result, exact)},
+    {FIELD(rlvc_min_tree_result, reserved)},
     {SIZE(rlvc_policy_config)},
     {FIELD(rlvc_policy_config, tolerance)},
     {FIELD(rlvc_policy_config, percepts)},

@@ -27,7 +27,7 @@ from ._version import __version__
 from .agent.agent import Agent
 from .agent.batch import Batch
 from .agent.config import Config
-from .agent.fewest import Fewest, fewest
+from .agent.min_tree import MinTree, min_tree
 from .agent.policy import Compaction, Policy
 from .agent.results import CHOICE, Choice, Prediction, Progress, Split, Statistics
 from .domains.bits import Bits
@@ -53,7 +53,7 @@ __all__ = [
     "Domain",
     "Encoder",
     "Error",
-    "Fewest",
+    "MinTree",
     "Policy",
     "Prediction",
     "Progress",
@@ -64,8 +64,8 @@ __all__ = [
     "Thresholds",
     "__version__",
     "encode",
-    "fewest",
     "learn",
     "learn_from",
+    "min_tree",
     "trials",
 ]

@@ -24,8 +24,8 @@ static uint32_t bit_at(const uint64_t *words, uint32_t i) {
     return (uint32_t)(words[i / 64u] >> i % 64u & 1u);
 }
 
-static rlvc_cut sweep(uint32_t count, float beat) {
-    rlvc_cut best = {-1.0f, 0, 0, 0};
+static rlvc_cutpoint sweep(uint32_t count, float beat) {
+    rlvc_cutpoint best = {-1.0f, 0, 0, 0};
     float bar = beat > 0.0f ? beat : 0.0f;
     uint32_t x = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -36,7 +36,7 @@ static rlvc_cut sweep(uint32_t count, float beat) {
             float score = rlvc_score(x, i - x, above, count - i - above);
             if (score > bar) {
                 bar = score;
-                best = (rlvc_cut){score, i, x, best.present};
+                best = (rlvc_cutpoint){score, i, x, best.present};
             }
         }
         x += bit_at(column, i);
@@ -45,30 +45,30 @@ static rlvc_cut sweep(uint32_t count, float beat) {
 }
 
 /* Budgets of `budget`, or random ones if that is 0. */
-static rlvc_cut scan(uint32_t count, float beat, uint32_t budget, uint64_t *work) {
-    rlvc_scan state;
+static rlvc_cutpoint scan(uint32_t count, float beat, uint32_t budget, uint64_t *work) {
+    rlvc_cutpoint_cursor state;
     *work = 0;
-    rlvc_scan_begin(&state, column, cuts, count, 0, beat);
+    rlvc_cutpoint_begin(&state, column, cuts, count, 0, beat);
     while (!state.done) {
         uint32_t room = budget > 0 ? budget : RLVC_BUDGET_MIN + rlvc_rng_below(&rng, 300u);
-        uint32_t used = rlvc_scan_step(&state, room);
+        uint32_t used = rlvc_cutpoint_step(&state, room);
         assert_in_range(used, 1u, room);
         *work += used;
     }
     return state.best;
 }
 
-static int same(rlvc_cut a, rlvc_cut b) {
+static int same(rlvc_cutpoint a, rlvc_cutpoint b) {
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
 static void check_scan(uint32_t count, float beat, const char *what) {
-    rlvc_cut expected = sweep(count, beat);
+    rlvc_cutpoint expected = sweep(count, beat);
     const uint32_t budgets[] = {RLVC_BUDGET_UNBOUNDED, RLVC_BUDGET_MIN, 0};
     uint64_t first = 0;
     for (int i = 0; i < 3; i++) {
         uint64_t work;
-        rlvc_cut got = scan(count, beat, budgets[i], &work);
+        rlvc_cutpoint got = scan(count, beat, budgets[i], &work);
         if (!same(got, expected))
             fail_msg("%s, count %u, beat %.9g, budget %u: %.9g at %u (%u of %u), not "
                      "%.9g at %u (%u of %u)",
@@ -204,14 +204,14 @@ static void test_constant_column(void **state) {
 static void test_ones(void **state) {
     (void)state;
     rlvc_rng_seed(&rng, 9u);
-    for (uint32_t words = 0; words <= RLVC_ONES_WORDS; words++) {
-        make(NOISE, RLVC_ONES_WORDS * 64u, 1u);
+    for (uint32_t words = 0; words <= RLVC_POPCOUNT_WORDS; words++) {
+        make(NOISE, RLVC_POPCOUNT_WORDS * 64u, 1u);
         uint32_t expected = 0;
         for (uint32_t i = 0; i < words * 64u; i++)
             expected += bit_at(column, i);
-        assert_int_equal(rlvc_ones(column, words), expected);
-        memset(column, 0xff, sizeof column[0] * RLVC_ONES_WORDS);
-        assert_int_equal(rlvc_ones(column, words), words * 64u);
+        assert_int_equal(rlvc_popcount(column, words), expected);
+        memset(column, 0xff, sizeof column[0] * RLVC_POPCOUNT_WORDS);
+        assert_int_equal(rlvc_popcount(column, words), words * 64u);
     }
 }
 

@@ -31,7 +31,7 @@ static void make(void) {
 static void set_seen(uint32_t class_id, uint8_t a, uint8_t b, uint8_t c, uint8_t d) {
     const uint8_t seen[ACTIONS] = {a, b, c, d};
     for (uint32_t i = 0; i < ACTIONS; i++)
-        explorer.seen[class_id * ACTIONS + i] = seen[i];
+        explorer.count[class_id * ACTIONS + i] = seen[i];
 }
 
 /* How often each action is chosen is what it should be, by more than four standard deviations. */
@@ -71,15 +71,15 @@ static void test_weights(void **state) {
 static void test_going_after(void **state) {
     (void)state;
     make();
-    explorer.least = 5;
+    explorer.min_tried = 5;
     set_seen(0, 9, 4, 9, 9); /* little tried, here */
     const double rest = 3.0 / 6561.0 + 1.0 / 625.0;
     check_shares(0, (const double[ACTIONS]){0.5 / 6561.0 / rest, 0.5 + 0.5 / 625.0 / rest,
                                             0.5 / 6561.0 / rest, 0.5 / 6561.0 / rest});
     set_seen(0, 9, 9, 9, 9);
-    explorer.lead[0] = 2; /* elsewhere */
+    explorer.to_novel[0] = 2; /* elsewhere */
     check_shares(0, (const double[ACTIONS]){0.125, 0.125, 0.625, 0.125});
-    explorer.lead[0] = RLVC_NO_ACTION; /* neither */
+    explorer.to_novel[0] = RLVC_NO_ACTION; /* neither */
     check_shares(0, (const double[ACTIONS]){0.25, 0.25, 0.25, 0.25});
 }
 
@@ -87,41 +87,41 @@ static void test_counting(void **state) {
     (void)state;
     make();
     set_seen(0, 254, 0, 7, 0);
-    explorer.lead[0] = 1;
+    explorer.to_novel[0] = 1;
     rlvc_explorer_inherit(&explorer, ACTIONS, 2, 0);
     for (int i = 0; i < 3; i++)
         rlvc_explorer_note(&explorer, ACTIONS, 2, 0);
     rlvc_explorer_note(&explorer, ACTIONS, 2, 3);
-    assert_int_equal(explorer.seen[0], 254);
-    assert_int_equal(explorer.seen[8], 255);
-    assert_int_equal(explorer.seen[10], 7);
-    assert_int_equal(explorer.seen[11], 1);
-    assert_int_equal(explorer.lead[2], 1);
+    assert_int_equal(explorer.count[0], 254);
+    assert_int_equal(explorer.count[8], 255);
+    assert_int_equal(explorer.count[10], 7);
+    assert_int_equal(explorer.count[11], 1);
+    assert_int_equal(explorer.to_novel[2], 1);
     rlvc_explorer_join(&explorer, ACTIONS, 2, 0);
-    assert_int_equal(explorer.seen[8], 255);
-    assert_int_equal(explorer.seen[10], 14);
-    assert_int_equal(explorer.seen[11], 1);
+    assert_int_equal(explorer.count[8], 255);
+    assert_int_equal(explorer.count[10], 14);
+    assert_int_equal(explorer.count[11], 1);
     assert_int_equal(explorer.last, 3);
 }
 
 static void test_least(void **state) {
     (void)state;
-    assert_int_equal(rlvc_explorer_least(0, 1), 3);
-    assert_int_equal(rlvc_explorer_least(183, 12), 3);
-    assert_int_equal(rlvc_explorer_least(192, 12), 4);
-    assert_int_equal(rlvc_explorer_least(1020, 1), 255);
-    assert_int_equal(rlvc_explorer_least(UINT32_MAX, 1), 255);
+    assert_int_equal(rlvc_explorer_min_tried(0, 1), 3);
+    assert_int_equal(rlvc_explorer_min_tried(183, 12), 3);
+    assert_int_equal(rlvc_explorer_min_tried(192, 12), 4);
+    assert_int_equal(rlvc_explorer_min_tried(1020, 1), 255);
+    assert_int_equal(rlvc_explorer_min_tried(UINT32_MAX, 1), 255);
 }
 
 static void test_check(void **state) {
     (void)state;
     make();
-    explorer.lead[1] = ACTIONS - 1u;
+    explorer.to_novel[1] = ACTIONS - 1u;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 2));
-    explorer.lead[1] = ACTIONS;
+    explorer.to_novel[1] = ACTIONS;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 1));
     assert_false(rlvc_explorer_check(&explorer, ACTIONS, 2));
-    explorer.lead[1] = RLVC_NO_ACTION;
+    explorer.to_novel[1] = RLVC_NO_ACTION;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 2));
     explorer.last = ACTIONS - 1u;
     assert_true(rlvc_explorer_check(&explorer, ACTIONS, 1));

@@ -10,7 +10,7 @@
 
 #include "block.h"
 #include "faulty.h"
-#include "rlvc/fewest.h"
+#include "rlvc/min_tree.h"
 #include "rlvc/rlvc.h"
 
 #define BITS 3u
@@ -235,7 +235,7 @@ static void test_refusals(void **unused) {
                                          {0.0f, 8, 1, 0, 1},
                                          {0.0f, 8, 64, 1, 1},
                                          {0.0f, 8, 64, 0, 0},
-                                         {0.0f, RLVC_FEWEST_ROWS_MAX + 1u, 64, 0, 1}};
+                                         {0.0f, RLVC_MIN_TREE_ROWS_MAX + 1u, 64, 0, 1}};
     for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; i++) {
         wrong = wrongs[i];
         bytes = 1;

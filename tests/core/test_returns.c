@@ -15,7 +15,7 @@ static history list;
 static rlvc_replay replay;
 
 /* R_t^H of item t as a sum of doubles; 0 if it is undefined. */
-static int naive(uint32_t t, const rlvc_returns *returns, double *value) {
+static int naive(uint32_t t, const rlvc_return_input *returns, double *value) {
     double weight = 1.0;
     *value = 0.0;
     for (uint32_t i = 0; i <= returns->horizon; i++) {
@@ -30,23 +30,23 @@ static int naive(uint32_t t, const rlvc_returns *returns, double *value) {
 }
 
 /* The window at a position, with budgets of `slice`. */
-static rlvc_window window_at(uint32_t position, const rlvc_returns *returns, uint32_t slice,
-                             uint64_t *work) {
-    rlvc_window window;
-    rlvc_window_begin(&window, position);
+static rlvc_return_cursor window_at(uint32_t position, const rlvc_return_input *returns,
+                                    uint32_t slice, uint64_t *work) {
+    rlvc_return_cursor window;
+    rlvc_return_begin(&window, position);
     *work = 0;
     while (!window.done) {
-        uint32_t used = rlvc_window_step(&window, returns, slice);
+        uint32_t used = rlvc_return_step(&window, returns, slice);
         assert_in_range(used, 1, slice);
         *work += used;
     }
     return window;
 }
 
-static void check(uint32_t t, uint32_t position, const rlvc_returns *returns) {
+static void check(uint32_t t, uint32_t position, const rlvc_return_input *returns) {
     double expected = 0.0;
     uint64_t work, slice_work;
-    rlvc_window whole = window_at(position, returns, UINT32_MAX, &work);
+    rlvc_return_cursor whole = window_at(position, returns, UINT32_MAX, &work);
     int defined = naive(t, returns, &expected);
     if (whole.defined != defined || (defined && fabs((double)whole.value - expected) > 1e-4))
         fail_msg("item %u, horizon %u, discount %g, continuing %u: %u %.9g, not %d %.9g", t,
@@ -54,7 +54,7 @@ static void check(uint32_t t, uint32_t position, const rlvc_returns *returns) {
                  (double)whole.value, defined, expected);
     assert_true(work <= 2u * ((uint64_t)returns->horizon + 1u));
     for (uint32_t slice = 1; slice <= 3u; slice++) {
-        rlvc_window sliced = window_at(position, returns, slice, &slice_work);
+        rlvc_return_cursor sliced = window_at(position, returns, slice, &slice_work);
         assert_memory_equal(&sliced.value, &whole.value, sizeof whole.value);
         assert_int_equal(sliced.defined, whole.defined);
         assert_int_equal(slice_work, work);
@@ -62,7 +62,7 @@ static void check(uint32_t t, uint32_t position, const rlvc_returns *returns) {
 }
 
 /* Every window of the list; a slot without an interaction has no window. */
-static void check_all(const rlvc_returns *returns) {
+static void check_all(const rlvc_return_input *returns) {
     uint32_t position = 0;
     uint64_t work;
     for (uint32_t t = 0; t < list.count; t++) {
@@ -85,8 +85,8 @@ static void test_against_the_definition(void **state) {
             history_do_random(&list, &replay, &rng, seed % 2u == 0 ? 7u : 8u);
         for (uint32_t horizon = 0; horizon < 12u; horizon++)
             for (int i = 0; i < 8; i++) {
-                rlvc_returns returns = {&replay, rlvc_replay_freeze(&replay), horizon,
-                                        discounts[i / 2], (uint8_t)(i % 2)};
+                rlvc_return_input returns = {&replay, rlvc_replay_freeze(&replay), horizon,
+                                             discounts[i / 2], (uint8_t)(i % 2)};
                 check_all(&returns);
             }
     }
@@ -109,9 +109,9 @@ static void test_edges(void **state) {
     for (int i = 0; i < 6; i++)
         for (uint32_t horizon = 0; horizon < 255u; horizon += 127u) {
             uint64_t work;
-            rlvc_returns returns = {&replay, 0, horizon, 1.0f, (uint8_t)(i / 3)};
+            rlvc_return_input returns = {&replay, 0, horizon, 1.0f, (uint8_t)(i / 3)};
             returns.end = episode(horizon + 1u, ends[i % 3]);
-            rlvc_window window = window_at(0, &returns, 7, &work);
+            rlvc_return_cursor window = window_at(0, &returns, 7, &work);
             assert_true(window.defined);
             assert_float_equal(window.value, (float)(horizon + 1u), 0.0f);
             assert_int_equal(work, 2u * (horizon + 1u));
@@ -134,9 +134,9 @@ static void test_place_does_not_matter(void **state) {
             history_do_append(&list, &replay, greedy, rewards[i],
                               i == 3 ? RLVC_TERMINATED : RLVC_GOES_ON);
         uint32_t end = rlvc_replay_freeze(&replay);
-        rlvc_returns returns = {&replay, end, 3, 0.9f, 0};
+        rlvc_return_input returns = {&replay, end, 3, 0.9f, 0};
         uint64_t work;
-        rlvc_window window = window_at(end - 4u, &returns, 1, &work);
+        rlvc_return_cursor window = window_at(end - 4u, &returns, 1, &work);
         replay.frozen = 0;
         assert_true(window.defined);
         first = round == 0 ? window.value : first;

@@ -335,12 +335,13 @@ static void test_unsound_learner(void **state) {
                          RLVC_E_DAMAGED);
         if (phase != 1)
             assert_int_equal(load_forged(&store, AT_SLOTS + 5u, 0xffff, 2), RLVC_E_DAMAGED);
-        const rlvc_solver *solver = &p.agent->learner.work.solver;
+        const rlvc_solver_cursor *solver = &p.agent->learner.work.solver;
         if (phase == 4) /* a transition before the pair's first */
-            assert_int_equal(load_forged(&store, learner + 30u + 12u, 0, 4),
-                             p.agent->values.first[4u * solver->class_id + solver->action] > 0
-                                 ? RLVC_E_DAMAGED
-                                 : RLVC_OK);
+            assert_int_equal(
+                load_forged(&store, learner + 30u + 12u, 0, 4),
+                p.agent->values.begin.transition[4u * solver->class_id + solver->action] > 0
+                    ? RLVC_E_DAMAGED
+                    : RLVC_OK);
         for (uint32_t word = 0; word < 10; word++) {
             rlvc_status status = load_forged(&store, learner + 30u + 4u * word, NOT_A_NUMBER, 4);
             assert_true(status == RLVC_E_DAMAGED || (phase == 4 && (word == 3 || word == 9)));
@@ -354,30 +355,30 @@ static void test_unsound_learner(void **state) {
 static void test_resume_improving(void **state) {
     (void)state;
     uint32_t first[9] = {0}, word[10], again[10];
-    rlvc_solver solver, resumed;
-    rlvc_solving solving = {NULL, 2, 10, 0.9f, 0.01f};
+    rlvc_solver_cursor solver, resumed;
+    rlvc_solver_input input = {NULL, 2, 10, 0.9f, 0.01f};
     rlvc_values values;
     memset(&values, 0, sizeof values);
     values.actions = 4;
-    values.first = first;
+    values.begin.transition = first;
     rlvc_solver_begin(&solver, RLVC_SOLVER_POLICY_ITERATION);
     solver.class_id = 1;
     solver.changed = 1;
     rlvc_solver_mark(&solver, word);
     rlvc_solver_begin(&resumed, RLVC_SOLVER_POLICY_ITERATION);
-    assert_true(rlvc_solver_restore(&resumed, &solving, &values, word));
+    assert_true(rlvc_solver_restore(&resumed, &input, &values, word));
     rlvc_solver_mark(&resumed, again);
     assert_memory_equal(word, again, sizeof word);
     assert_int_equal(resumed.phase, solver.phase);
     assert_int_equal(resumed.changed, 1);
     rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
-    assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
+    assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
     word[0] = 2; /* no phase */
     rlvc_solver_begin(&resumed, RLVC_SOLVER_POLICY_ITERATION);
-    assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
+    assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
     word[0] = 1u << 16;
     rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
-    assert_false(rlvc_solver_restore(&resumed, &solving, &values, word));
+    assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
 }
 
 /* A phase that a config does not have. */

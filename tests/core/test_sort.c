@@ -58,7 +58,7 @@ static void make_input(int shape, uint32_t count, uint32_t seed) {
 
 /* Sorts with budgets of `budget`, or random ones if that is 0. Returns the units used. */
 static uint64_t sort(rlvc_sample *sample, uint32_t count, uint32_t budget, rlvc_rng *rng) {
-    rlvc_sort state;
+    rlvc_sort_cursor state;
     uint64_t work = 0;
     memcpy(sample, input, count * sizeof *sample);
     rlvc_sort_begin(&state, sample, count, scratch);
@@ -126,7 +126,7 @@ static void test_every_small_input(void **state) {
 
 static void test_small_state(void **state) {
     (void)state;
-    assert_true(sizeof(rlvc_sort) <= 96u);
+    assert_true(sizeof(rlvc_sort_cursor) <= 96u);
 }
 
 int main(void) {

@@ -74,7 +74,7 @@ static void test_inherit_and_forget(void **state) {
     make();
     for (uint32_t a = 0; a < ACTIONS; a++) {
         values.q[a] = 1.5f * (float)a;
-        values.reward[a] = -(float)a;
+        values.pair.reward[a] = -(float)a;
         values.tried[a] = 10u + a;
     }
     values.value[0] = 4.0f;
@@ -82,7 +82,8 @@ static void test_inherit_and_forget(void **state) {
     values.trial[0] = 1;
     rlvc_values_inherit(&values, 2, 0);
     assert_memory_equal(values.q + 2u * ACTIONS, values.q, ACTIONS * sizeof *values.q);
-    assert_memory_equal(values.reward + 2u * ACTIONS, values.reward, ACTIONS * sizeof *values.q);
+    assert_memory_equal(values.pair.reward + 2u * ACTIONS, values.pair.reward,
+                        ACTIONS * sizeof *values.q);
     assert_memory_equal(values.tried + 2u * ACTIONS, values.tried, ACTIONS * sizeof *values.tried);
     assert_float_equal(values.value[2], 4.0f, 0.0f);
     assert_int_equal(values.policy[2], 2);

@@ -10,10 +10,10 @@ import binding
 import method
 
 Ranks = binding.struct("Ranks", sum=binding.U64, cubes=binding.U64, begin=binding.U32, inside=binding.U32)
-binding.LIBRARY.rlvc_ranks_add.argtypes = [binding.POINTER] + 3 * [binding.U32]
-binding.LIBRARY.rlvc_ranks_add.restype = None
-binding.LIBRARY.rlvc_ranks_statistic.argtypes = [binding.POINTER] + 2 * [binding.U32]
-binding.LIBRARY.rlvc_ranks_statistic.restype = binding.FLOAT
+binding.LIBRARY.rlvc_rank_sum_add.argtypes = [binding.POINTER] + 3 * [binding.U32]
+binding.LIBRARY.rlvc_rank_sum_add.restype = None
+binding.LIBRARY.rlvc_rank_sum_statistic.argtypes = [binding.POINTER] + 2 * [binding.U32]
+binding.LIBRARY.rlvc_rank_sum_statistic.restype = binding.FLOAT
 
 
 def core(present, cuts):
@@ -24,8 +24,8 @@ def core(present, cuts):
     for at in range(0, len(present), 32):
         words = (int.from_bytes(numpy.packbits(bits[at:at + 32], bitorder="little").tobytes(), "little")
                  for bits in (present, begins))
-        binding.LIBRARY.rlvc_ranks_add(ctypes.byref(ranks), at, *words)
-    return binding.LIBRARY.rlvc_ranks_statistic(ctypes.byref(ranks), int(present.sum()), len(present))
+        binding.LIBRARY.rlvc_rank_sum_add(ctypes.byref(ranks), at, *words)
+    return binding.LIBRARY.rlvc_rank_sum_statistic(ctypes.byref(ranks), int(present.sum()), len(present))
 
 
 def draw(rng, count, levels, share):

@@ -200,31 +200,31 @@ def test_the_fewest_leaves():
         rows = np.unique(random.random((12, 5)) < 0.5, axis=0)
         allowed = random.random((len(rows), 3)) < 0.4
         allowed[np.arange(len(rows)), random.integers(3, size=len(rows))] = True
-        tree = rlvc.fewest(rows, allowed)
+        tree = rlvc.min_tree(rows, allowed)
         assert tree.exact and tree.leaves == reference(rows, allowed)
         assert all(a[tree.actions[leaf_of(tree, r)]] for r, a in zip(rows, allowed, strict=True))
     wide = np.zeros((2, 200), bool)
     wide[1, 150] = True
-    assert rlvc.fewest(wide, np.eye(2, dtype=bool)).splits.tolist() == [[0, 150]]
+    assert rlvc.min_tree(wide, np.eye(2, dtype=bool)).splits.tolist() == [[0, 150]]
 
 
 def test_what_fewest_refuses():
     rows, allowed = np.eye(2, dtype=bool), np.eye(2, dtype=bool)
     for wrong in (rows.astype(int), rows[0]):
         with pytest.raises(errors.ArrayError):
-            rlvc.fewest(wrong, allowed)
+            rlvc.min_tree(wrong, allowed)
     with pytest.raises(errors.ArrayError):
-        rlvc.fewest(rows, allowed[:1])
+        rlvc.min_tree(rows, allowed[:1])
     for numbers in ({"entries": 1}, {"entries": 2**29}, {"effort": 0}, {"effort": 0.5}):
         with pytest.raises(errors.RangeError):
-            rlvc.fewest(rows, allowed, **numbers)
+            rlvc.min_tree(rows, allowed, **numbers)
     for torn in (np.zeros((2, 2), bool), np.zeros((2, 65), bool)):
         with pytest.raises(errors.RangeError):
-            rlvc.fewest(rows, torn)
+            rlvc.min_tree(rows, torn)
     with pytest.raises(errors.RangeError):
-        rlvc.fewest(np.zeros((2, 2), bool), allowed)
+        rlvc.min_tree(np.zeros((2, 2), bool), allowed)
     with pytest.raises(errors.RangeError):
-        rlvc.fewest(np.zeros((0, 2), bool), np.zeros((0, 2), bool))
+        rlvc.min_tree(np.zeros((0, 2), bool), np.zeros((0, 2), bool))
 
 
 def test_a_run_plays_with_it():

@@ -43,12 +43,12 @@ struct Process {
     // All values from 0; returns the sweeps.
     uint32_t solve() {
         std::fill(values.value, values.value + config.classes, 0.0F);
-        const rlvc_solving solving = {
+        const rlvc_solver_input input = {
             transitions.data(), config.classes, 10000, 0.9F, 0.01F, 0, nullptr};
-        rlvc_solver solver;
+        rlvc_solver_cursor solver;
         rlvc_solver_begin(&solver, RLVC_SOLVER_VALUE_ITERATION);
         while (!solver.done)
-            rlvc_solver_step(&solver, &solving, &values, RLVC_BUDGET_UNBOUNDED);
+            rlvc_solver_step(&solver, &input, &values, RLVC_BUDGET_UNBOUNDED);
         return solver.sweeps;
     }
 };

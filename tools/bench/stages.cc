@@ -8,13 +8,13 @@ namespace bench {
 std::vector<rlvc_sample> samples_of(const std::vector<float> &target) {
     std::vector<rlvc_sample> samples(target.size());
     for (size_t i = 0; i < samples.size(); i++)
-        samples[i] = {rlvc_key_of_target(target[i]), static_cast<uint32_t>(i)};
+        samples[i] = {rlvc_target_key(target[i]), static_cast<uint32_t>(i)};
     return samples;
 }
 
 void sort(std::vector<rlvc_sample> &samples) {
     alignas(8) unsigned char scratch[RLVC_SORT_SCRATCH_BYTES];
-    rlvc_sort sort;
+    rlvc_sort_cursor sort;
     rlvc_sort_begin(&sort, samples.data(), static_cast<uint32_t>(samples.size()), scratch);
     while (!sort.done)
         rlvc_sort_step(&sort, RLVC_BUDGET_UNBOUNDED);
@@ -44,10 +44,10 @@ uint32_t detect(const rlvc_domain &domain, const rlvc_samples &samples, uint32_t
 
 void scan(const uint64_t *column, const uint64_t *cuts, uint32_t count, uint32_t feature,
           Winner &winner) {
-    rlvc_scan scan;
-    rlvc_scan_begin(&scan, column, cuts, count, 0, winner.cut.score);
+    rlvc_cutpoint_cursor scan;
+    rlvc_cutpoint_begin(&scan, column, cuts, count, 0, winner.cut.score);
     while (!scan.done)
-        rlvc_scan_step(&scan, RLVC_BUDGET_UNBOUNDED);
+        rlvc_cutpoint_step(&scan, RLVC_BUDGET_UNBOUNDED);
     if (scan.best.score > winner.cut.score)
         winner = {scan.best, feature};
 }
@@ -67,24 +67,24 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     arena = {reinterpret_cast<unsigned char *>(block.data()), 0};
     rlvc_workspace_carve(&space, &arena, &config, domain.feature_bytes);
     for (uint32_t i = 0; i < config.capacity; i++)
-        space.sample[i] = {rlvc_key_of_target(target[i]), i};
+        space.rows.sample[i] = {rlvc_target_key(target[i]), i};
 
     rlvc_replay replay = {};
     replay.percept = const_cast<unsigned char *>(percepts.data());
     replay.percept_bytes = percept_bytes;
-    rlvc_aliasing aliasing = {};
-    const rlvc_searching searching = {
+    rlvc_target_input aliasing = {};
+    const rlvc_split_input input = {
         &space, &replay, &aliasing, &domain, config.min_samples, config.score == RLVC_SCORE_RANKS};
     const uint32_t first[2] = {0, config.capacity};
-    rlvc_search search;
-    rlvc_search_begin(&search, &searching, first);
+    rlvc_split_cursor search;
+    rlvc_split_search_begin(&search, &input, first);
     for (uint32_t used; !search.done;)
-        rlvc_search_step(&search, &searching, RLVC_BUDGET_UNBOUNDED, &used);
+        rlvc_split_search_step(&search, &input, RLVC_BUDGET_UNBOUNDED, &used);
     rlvc_split about;
-    const void *feature = rlvc_search_result(&search, &space, &about);
+    const void *feature = rlvc_split_search_result(&search, &space, &about);
     Winner winner = {};
     if (feature) {
-        const rlvc_table &table = search.alone.table;
+        const rlvc_table &table = search.per_action.table;
         winner = {{about.score, table.a + table.b, table.a, table.a + table.c},
                   rlvc_bits_feature(feature)};
     }

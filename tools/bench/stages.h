@@ -9,7 +9,7 @@
 namespace bench {
 
 struct Winner {
-    rlvc_cut cut;
+    rlvc_cutpoint cut;
     uint32_t feature;
 };
 

@@ -42,7 +42,7 @@ Fewest fewest_leaves(const gridworld_maze &maze, const Optimum &optimum) {
             allowed.back() |= uint64_t{optimum.optimal(cell, action)} << action;
         }
     }
-    rlvc_fewest_task task{};
+    rlvc_min_tree_task task{};
     task.row = rows.data();
     task.allowed = allowed.data();
     task.rows = static_cast<uint32_t>(rows.size());
@@ -50,10 +50,10 @@ Fewest fewest_leaves(const gridworld_maze &maze, const Optimum &optimum) {
     task.entries = entries;
     task.effort = effort;
     std::size_t bytes = 0;
-    rlvc_fewest_tree tree;
-    check(rlvc_fewest_size(&task, &bytes), "rlvc_fewest_size");
+    rlvc_min_tree_result tree;
+    check(rlvc_min_tree_size(&task, &bytes), "rlvc_min_tree_size");
     const Block block = allocate(bytes);
-    check(rlvc_fewest(&task, block.get(), bytes, &tree), "rlvc_fewest");
+    check(rlvc_min_tree(&task, block.get(), bytes, &tree), "rlvc_min_tree");
     return {tree.leaves, tree.exact == 1};
 }
 

@@ -5,7 +5,7 @@
  * The agent's tree tells situations apart that are worth different amounts; a policy need only tell
  * those apart in which to act differently. So the smallest tree is sought, over the features that
  * the agent's tree tests, that does at each percept of the agent's ring what the agent does, or
- * what is as good. See rlvc/fewest.h for how.
+ * what is as good. See rlvc/min_tree.h for how.
  *
  * A policy lies at the beginning of a block of the caller's and is independent of the agent from
  * then on; its domain's ctx must stay. It is used by one thread at a time. Every function here
@@ -32,15 +32,15 @@ typedef struct rlvc_policy_config {
      * agent's config, which its solver cannot tell from nothing. */
     float tolerance;
 
-    /* Distinct ones that there is room for, [1, RLVC_FEWEST_ROWS_MAX]. Two are distinct if one
+    /* Distinct ones that there is room for, [1, RLVC_MIN_TREE_ROWS_MAX]. Two are distinct if one
      * exhibits a feature of the tree that the other does not. Default the number of percepts that
      * the ring can hold, 16384 at most. */
     uint32_t percepts;
 
-    uint32_t entries;  /* of the table, [2, RLVC_FEWEST_ENTRIES_MAX]. Default 65536: for up to 64
+    uint32_t entries;  /* of the table, [2, RLVC_MIN_TREE_ENTRIES_MAX]. Default 65536: for up to 64
                           features that takes 1.5 MiB */
     uint32_t reserved; /* 0 */
-    uint64_t effort;   /* [1, RLVC_FEWEST_EFFORT_MAX]. Default 2^26, some seconds of a workstation
+    uint64_t effort;   /* [1, RLVC_MIN_TREE_EFFORT_MAX]. Default 2^26, some seconds of a workstation
                           at worst */
 } rlvc_policy_config;
 
@@ -72,7 +72,7 @@ typedef struct rlvc_policy_info {
 
     /* 1: the agent's action at every percept whatever, as nothing smaller was found than the
      * collapsed tree, or there was no room for the percepts, or the agent has more than
-     * RLVC_FEWEST_ACTIONS_MAX actions. 0: at a percept unlike all of the ring's it does what is
+     * RLVC_MIN_TREE_ACTIONS_MAX actions. 0: at a percept unlike all of the ring's it does what is
      * done at the percepts of the leaf that it comes to. */
     uint8_t as_agent;
 
@@ -82,7 +82,8 @@ typedef struct rlvc_policy_info {
 /* Makes a policy of an agent, which is unchanged; best between learning steps, as while one is
  * under way the actions and values are those of the last solution. A step by RLVC_CRITERION_RETURNS
  * leaves the ring without percepts: then after more interactions. O(P (F + depth)) for the P
- * percepts of the ring and F features, with as many calls of exhibits(); then that of rlvc_fewest.
+ * percepts of the ring and F features, with as many calls of exhibits(); then that of
+ * rlvc_min_tree.
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_policy_size or more
  * @param info optional
  * @return RLVC_OK; RLVC_E_RANGE: a field of the config; RLVC_E_MEMORY; RLVC_E_CALLBACK. On error

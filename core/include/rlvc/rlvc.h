@@ -9,7 +9,7 @@
 #include "rlvc/descriptors.h"
 #include "rlvc/domain.h"
 #include "rlvc/export.h"
-#include "rlvc/fewest.h"
+#include "rlvc/min_tree.h"
 #include "rlvc/log.h"
 #include "rlvc/policy.h"
 #include "rlvc/snapshot.h"

@@ -163,15 +163,14 @@ rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, co
     if (status != RLVC_OK)
         return status;
     if (rlvc_is_incremental(&agent->config)) {
-        rlvc_updates updates;
+        rlvc_td_updates updates;
         agent->busy = 1;
-        status =
-            rlvc_incremental_prepare(&updates, &agent->config, &agent->domain, &agent->tree,
-                                     &agent->replay, &agent->values, choice, reward, next, end);
+        status = rlvc_td_prepare(&updates, &agent->config, &agent->domain, &agent->tree,
+                                 &agent->replay, &agent->values, choice, reward, next, end);
         agent->busy = 0;
         if (status != RLVC_OK)
             return status;
-        rlvc_incremental_apply(&updates, agent->config.learning_rate, &agent->values);
+        rlvc_td_apply(&updates, agent->config.learning_rate, &agent->values);
     }
     rlvc_replay_append(&agent->replay, choice, reward, next, end);
     agent->interactions++;

@@ -140,7 +140,8 @@ static int wrong_together(const rlvc_config *config, const rlvc_domain *domain) 
     if (config->successors && (domain->features_max < 1 || domain->oracle ||
                                domain->features_max > config->features_at_once))
         return WRONG_SUCCESSORS_DOMAIN;
-    if (config->score == RLVC_SCORE_RANKS && (domain->oracle || config->capacity >= RLVC_RANKS_MAX))
+    if (config->score == RLVC_SCORE_RANKS &&
+        (domain->oracle || config->capacity >= RLVC_RANK_SUM_MAX))
         return WRONG_RANKS;
     return NOTHING_WRONG;
 }

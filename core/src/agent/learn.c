@@ -31,8 +31,8 @@ static uint32_t pairs(const rlvc_agent *agent) {
     return agent->tree.classes * agent->config.actions;
 }
 
-rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind) {
-    rlvc_aliasing made;
+rlvc_target_input rlvc_learner_target_input(const rlvc_agent *agent, uint8_t kind) {
+    rlvc_target_input made;
     made.returns.replay = &agent->replay;
     made.returns.end = agent->learner.end;
     made.returns.horizon = agent->step;
@@ -44,19 +44,21 @@ rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind) {
     return made;
 }
 
-rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion) {
-    rlvc_searching made = {&agent->space,
-                           &agent->replay,
-                           criterion,
-                           &agent->domain,
-                           agent->config.min_samples,
-                           agent->config.score == RLVC_SCORE_RANKS};
+rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
+                                          const rlvc_target_input *criterion) {
+    rlvc_split_input made = {&agent->space,
+                             &agent->replay,
+                             criterion,
+                             &agent->domain,
+                             agent->config.min_samples,
+                             agent->config.score == RLVC_SCORE_RANKS};
     return made;
 }
 
-rlvc_solving rlvc_learner_solving(const rlvc_agent *agent) {
-    rlvc_solving made = {agent->space.sample, agent->tree.classes, agent->config.max_sweeps,
-                         agent->config.discount, agent->config.tolerance};
+rlvc_solver_input rlvc_learner_solver_input(const rlvc_agent *agent) {
+    rlvc_solver_input made = {agent->space.rows.transition, agent->tree.classes,
+                              agent->config.max_sweeps, agent->config.discount,
+                              agent->config.tolerance};
     return made;
 }
 
@@ -64,7 +66,7 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
     rlvc_learner *learner = &agent->learner;
     learner->phase = phase;
     learner->at = 0;
-    learner->node = 0;
+    learner->walk.node = 0;
     learner->classes = agent->tree.classes;
     learner->searching = 0;
     if (phase == RLVC_PHASE_LABEL) {
@@ -77,10 +79,10 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
         rlvc_model_begin(&learner->work.model, pairs(agent));
     } else if (phase == RLVC_PHASE_SOLVE) {
         rlvc_solver_begin(&learner->work.solver, agent->config.solver);
-    } else if (phase == RLVC_PHASE_SEEK) {
-        rlvc_solving solving = rlvc_learner_solving(agent);
-        agent->explorer.least = rlvc_explorer_least(learner->end, pairs(agent));
-        rlvc_seeking_begin(&learner->work.seeking, &solving, &agent->values);
+    } else if (phase == RLVC_PHASE_NOVELTY) {
+        rlvc_solver_input input = rlvc_learner_solver_input(agent);
+        agent->explorer.min_tried = rlvc_explorer_min_tried(learner->end, pairs(agent));
+        rlvc_novelty_begin(&learner->work.novelty, &input, &agent->values);
     }
 }
 
@@ -102,20 +104,21 @@ static rlvc_status step_label(rlvc_agent *agent) {
         if (agent->config.criterion == RLVC_CRITERION_RETURNS)
             enter(agent, RLVC_PHASE_GROUP);
         else
-            enter(agent, rlvc_is_incremental(&agent->config) ? RLVC_PHASE_KEEP : RLVC_PHASE_MODEL);
+            enter(agent,
+                  rlvc_is_incremental(&agent->config) ? RLVC_PHASE_COPY_VALUES : RLVC_PHASE_MODEL);
         return RLVC_OK;
     }
     uint32_t slot = rlvc_replay_slot(replay, learner->at);
     uint16_t label = replay->label[slot];
     const void *percept = rlvc_replay_percept(replay, slot);
     if (label == RLVC_NO_CLASS) {
-        if (rlvc_tree_is_leaf(&agent->tree, learner->node)) {
-            replay->label[slot] = (uint16_t)rlvc_tree_class(&agent->tree, learner->node);
-            learner->node = 0;
+        if (rlvc_tree_is_leaf(&agent->tree, learner->walk.node)) {
+            replay->label[slot] = (uint16_t)rlvc_tree_class(&agent->tree, learner->walk.node);
+            learner->walk.node = 0;
             learner->at++;
             return RLVC_OK;
         }
-        return rlvc_tree_descend(&agent->tree, &agent->domain, percept, &learner->node);
+        return rlvc_tree_descend(&agent->tree, &agent->domain, percept, &learner->walk.node);
     }
     if (agent->pending[label] != 0) {
         uint32_t split = agent->pending[label] - 1u;
@@ -139,8 +142,8 @@ static rlvc_status step_label(rlvc_agent *agent) {
 static const void *found(const rlvc_agent *agent, rlvc_split *split) {
     const rlvc_learner *learner = &agent->learner;
     return learner->phase == RLVC_PHASE_SEARCH
-               ? rlvc_search_result(&learner->work.search, &agent->space, split)
-               : rlvc_succession_result(&learner->work.succession, &agent->space, split);
+               ? rlvc_split_search_result(&learner->work.split, &agent->space, split)
+               : rlvc_successor_search_result(&learner->work.successors, &agent->space, split);
 }
 
 /* Carries a split of class `at` out. */
@@ -169,10 +172,11 @@ static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
 static int recognise(rlvc_agent *agent, const void *feature) {
     const rlvc_tree *tree = &agent->tree;
     rlvc_learner *learner = &agent->learner;
-    for (uint32_t i = 0; i < DECIDE_UNITS && learner->node + 1u < tree->classes; i++) {
-        if (memcmp(rlvc_tree_feature(tree, learner->node), feature, tree->feature_bytes) == 0)
+    for (uint32_t i = 0; i < DECIDE_UNITS && learner->walk.compared + 1u < tree->classes; i++) {
+        if (memcmp(rlvc_tree_feature(tree, learner->walk.compared), feature, tree->feature_bytes) ==
+            0)
             return 1;
-        learner->node++;
+        learner->walk.compared++;
     }
     return 0;
 }
@@ -191,7 +195,7 @@ static float log_level(const rlvc_agent *agent) {
 
 static uint32_t close_class(rlvc_agent *agent, uint32_t used) {
     agent->learner.searching = 0;
-    agent->learner.node = 0;
+    agent->learner.walk.compared = 0;
     agent->learner.at++;
     return used;
 }
@@ -207,7 +211,7 @@ static uint32_t decide(rlvc_agent *agent) {
         if (!(split.log_p < rlvc_ln(agent->config.alpha_known)))
             return close_class(agent, DECIDE_UNITS);
         if (!recognise(agent, feature))
-            return agent->learner.node + 1u < agent->tree.classes
+            return agent->learner.walk.compared + 1u < agent->tree.classes
                        ? DECIDE_UNITS
                        : close_class(agent, DECIDE_UNITS);
     }
@@ -226,16 +230,16 @@ static void end_round(rlvc_agent *agent) {
         enter(agent, rlvc_is_incremental(config) ? RLVC_PHASE_FINISH : RLVC_PHASE_MODEL);
     else
         enter(agent, config->successors && agent->learner.phase == RLVC_PHASE_SEARCH
-                         ? RLVC_PHASE_SUCCESSION
+                         ? RLVC_PHASE_SUCCESSORS
                          : RLVC_PHASE_FINISH);
 }
 
 /* Works on class `at`: what is sought is up to the phase. */
 static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
-    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
-    int succession = learner->phase == RLVC_PHASE_SUCCESSION;
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
+    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
+    int succession = learner->phase == RLVC_PHASE_SUCCESSORS;
     *used = 1;
     if (!learner->searching && learner->at == learner->classes) {
         end_round(agent);
@@ -243,18 +247,18 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
     }
     if (!learner->searching) {
         const uint32_t *first =
-            agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0);
+            agent->values.begin.sample + rlvc_values_pair(&agent->values, learner->at, 0);
         agent->pending[learner->at] = 0;
         if (succession)
-            rlvc_succession_begin(&learner->work.succession, &searching, first);
+            rlvc_successor_search_begin(&learner->work.successors, &input, first);
         else
-            rlvc_search_begin(&learner->work.search, &searching, first);
+            rlvc_split_search_begin(&learner->work.split, &input, first);
         learner->searching = 1;
     }
-    if (succession && !learner->work.succession.done)
-        return rlvc_succession_step(&learner->work.succession, &searching, budget, used);
-    if (!succession && !learner->work.search.done)
-        return rlvc_search_step(&learner->work.search, &searching, budget, used);
+    if (succession && !learner->work.successors.done)
+        return rlvc_successor_search_step(&learner->work.successors, &input, budget, used);
+    if (!succession && !learner->work.split.done)
+        return rlvc_split_search_step(&learner->work.split, &input, budget, used);
     *used = decide(agent);
     return RLVC_OK;
 }
@@ -262,7 +266,7 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
 /* ------------------------------------------------------------------ the other phases */
 
 /* Keeps V of class `at`, for targets. A unit each. */
-static void step_keep(rlvc_agent *agent) {
+static void step_copy_values(rlvc_agent *agent) {
     uint32_t c = agent->learner.at++;
     if (c < agent->tree.classes)
         agent->values.target[c] = agent->values.value[c];
@@ -271,19 +275,19 @@ static void step_keep(rlvc_agent *agent) {
 }
 
 static uint32_t step_group(rlvc_agent *agent, uint32_t budget) {
-    rlvc_grouping *grouping = &agent->learner.work.grouping;
-    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
-    uint32_t used =
-        rlvc_grouping_step(grouping, &criterion, agent->space.sample, agent->values.first, budget);
+    rlvc_grouping_cursor *grouping = &agent->learner.work.grouping;
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
+    uint32_t used = rlvc_grouping_step(grouping, &criterion, agent->space.rows.sample,
+                                       agent->values.begin.sample, budget);
     if (grouping->done)
         enter(agent, RLVC_PHASE_SEARCH);
     return used;
 }
 
 static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
-    rlvc_model *model = &agent->learner.work.model;
-    rlvc_aliasing successor = rlvc_learner_aliasing(agent, RLVC_KEY_SUCCESSOR);
-    uint32_t used = rlvc_model_step(model, &successor, &agent->values, agent->space.sample,
+    rlvc_model_cursor *model = &agent->learner.work.model;
+    rlvc_target_input successor = rlvc_learner_target_input(agent, RLVC_TARGET_SUCCESSOR);
+    uint32_t used = rlvc_model_step(model, &successor, &agent->values, agent->space.rows,
                                     agent->space.columns, budget);
     if (model->done)
         enter(agent, RLVC_PHASE_SOLVE);
@@ -300,15 +304,15 @@ static void leave_model(rlvc_agent *agent) {
 }
 
 static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
-    rlvc_solver *solver = &agent->learner.work.solver;
-    rlvc_solving solving = rlvc_learner_solving(agent);
+    rlvc_solver_cursor *solver = &agent->learner.work.solver;
+    rlvc_solver_input input = rlvc_learner_solver_input(agent);
     uint32_t used =
-        SOLVE_UNITS * rlvc_solver_step(solver, &solving, &agent->values, budget / SOLVE_UNITS);
+        SOLVE_UNITS * rlvc_solver_step(solver, &input, &agent->values, budget / SOLVE_UNITS);
     if (solver->done) {
         agent->sweeps = solver->sweeps;
         agent->residual = solver->residual;
         if (agent->config.explore == RLVC_EXPLORE_DIRECTED)
-            enter(agent, RLVC_PHASE_SEEK);
+            enter(agent, RLVC_PHASE_NOVELTY);
         else
             leave_model(agent);
     }
@@ -316,9 +320,9 @@ static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
 }
 
 static uint32_t step_seek(rlvc_agent *agent, uint32_t budget) {
-    rlvc_seeking *seeking = &agent->learner.work.seeking;
-    rlvc_solving solving = rlvc_learner_solving(agent);
-    uint32_t used = SOLVE_UNITS * rlvc_seeking_step(seeking, &solving, &agent->values,
+    rlvc_novelty_cursor *seeking = &agent->learner.work.novelty;
+    rlvc_solver_input input = rlvc_learner_solver_input(agent);
+    uint32_t used = SOLVE_UNITS * rlvc_novelty_step(seeking, &input, &agent->values,
                                                     &agent->explorer, budget / SOLVE_UNITS);
     if (seeking->done)
         leave_model(agent);
@@ -351,14 +355,14 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
     case RLVC_PHASE_LABEL:
         status = step_label(agent);
         break;
-    case RLVC_PHASE_KEEP:
-        step_keep(agent);
+    case RLVC_PHASE_COPY_VALUES:
+        step_copy_values(agent);
         break;
     case RLVC_PHASE_GROUP:
         *used = step_group(agent, budget);
         break;
     case RLVC_PHASE_SEARCH:
-    case RLVC_PHASE_SUCCESSION:
+    case RLVC_PHASE_SUCCESSORS:
         status = step_search(agent, budget, used);
         break;
     case RLVC_PHASE_MODEL:
@@ -367,7 +371,7 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
     case RLVC_PHASE_SOLVE:
         *used = step_solve(agent, budget);
         break;
-    case RLVC_PHASE_SEEK:
+    case RLVC_PHASE_NOVELTY:
         *used = step_seek(agent, budget);
         break;
     default:

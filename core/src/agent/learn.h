@@ -9,28 +9,29 @@
 enum {
     RLVC_PHASE_IDLE,
     RLVC_PHASE_LABEL,
-    RLVC_PHASE_KEEP,
+    RLVC_PHASE_COPY_VALUES,
     RLVC_PHASE_MODEL,
     RLVC_PHASE_SOLVE,
-    RLVC_PHASE_SEEK,
+    RLVC_PHASE_NOVELTY,
     RLVC_PHASE_GROUP,
     RLVC_PHASE_SEARCH,
-    RLVC_PHASE_SUCCESSION,
+    RLVC_PHASE_SUCCESSORS,
     RLVC_PHASE_FINISH
 };
 
 /* A phase that looks for splits, class by class? */
 static inline int rlvc_phase_splits(uint8_t phase) {
-    return phase == RLVC_PHASE_SEARCH || phase == RLVC_PHASE_SUCCESSION;
+    return phase == RLVC_PHASE_SEARCH || phase == RLVC_PHASE_SUCCESSORS;
 }
 
-/* Keys of the step's samples. @param kind RLVC_CRITERION_* or RLVC_KEY_SUCCESSOR */
-rlvc_aliasing rlvc_learner_aliasing(const rlvc_agent *agent, uint8_t kind);
+/* Keys of the step's samples. @param kind RLVC_CRITERION_* or RLVC_TARGET_SUCCESSOR */
+rlvc_target_input rlvc_learner_target_input(const rlvc_agent *agent, uint8_t kind);
 
 /* What a search of the step looks at. */
-rlvc_searching rlvc_learner_searching(const rlvc_agent *agent, const rlvc_aliasing *criterion);
+rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
+                                          const rlvc_target_input *criterion);
 
 /* What a solution of the step looks at. */
-rlvc_solving rlvc_learner_solving(const rlvc_agent *agent);
+rlvc_solver_input rlvc_learner_solver_input(const rlvc_agent *agent);
 
 #endif

@@ -8,7 +8,7 @@
  * together. As the layout of the tree is its history (tree.h), the splits that are left, in their
  * order, make a tree of their own: they are grown again in place, and their classes numbered anew.
  *
- * Of the tables that lie idle between two learning steps, `reward` and `first` hold the spread of
+ * Of the tables that lie idle between two learning steps, `pair` and `begin` hold the spread of
  * the targets, and `pending` what becomes of each class. */
 #include "learn.h"
 #include "q_variance.h"
@@ -17,7 +17,7 @@
 
 typedef struct pruner {
     rlvc_agent *agent;
-    rlvc_spread spread;
+    rlvc_q_variance variance;
     uint16_t *gone; /* [classes] 1: split j, which made class j + 1, is undone; then the classes'
                        new numbers */
     float tolerance;
@@ -31,10 +31,10 @@ static float square(float x) {
 /* Can the difference of two pairs' Q be chance? */
 static int is_chance(const pruner *p, size_t one, size_t other, float difference) {
     const uint32_t enough = p->agent->config.min_samples;
-    if (p->spread.count[one] < enough || p->spread.count[other] < enough)
+    if (p->variance.count[one] < enough || p->variance.count[other] < enough)
         return 0;
-    return square(difference) <= square(p->deviations) * (rlvc_spread_variance(&p->spread, one) +
-                                                          rlvc_spread_variance(&p->spread, other));
+    return square(difference) <= square(p->deviations) * (rlvc_q_variance_of(&p->variance, one) +
+                                                          rlvc_q_variance_of(&p->variance, other));
 }
 
 /* Do two classes act alike, and is each action worth as much in both, as far as is known? */
@@ -64,10 +64,10 @@ static void put_together(pruner *p, uint32_t c, uint32_t d) {
             continue;
         const float q = values->q[one] + (values->q[other] - values->q[one]) *
                                              ((float)values->tried[other] / (float)tried);
-        p->spread.squares[one] += p->spread.squares[other] +
-                                  (float)p->spread.count[one] * square(values->q[one] - q) +
-                                  (float)p->spread.count[other] * square(values->q[other] - q);
-        p->spread.count[one] += p->spread.count[other];
+        p->variance.squares[one] += p->variance.squares[other] +
+                                    (float)p->variance.count[one] * square(values->q[one] - q) +
+                                    (float)p->variance.count[other] * square(values->q[other] - q);
+        p->variance.count[one] += p->variance.count[other];
         values->q[one] = q;
         values->tried[one] = tried;
     }
@@ -154,16 +154,20 @@ rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations, uin
     if (agent->learner.phase != RLVC_PHASE_IDLE)
         return RLVC_E_BUSY;
     const uint32_t classes = agent->tree.classes;
-    pruner p = {
-        agent, {agent->values.reward, agent->values.first}, agent->pending, tolerance, deviations};
-    rlvc_spread_measure(&p.spread, &agent->replay, &agent->values, agent->config.discount, classes);
+    pruner p = {agent,
+                {agent->values.pair.squares, agent->values.begin.targets},
+                agent->pending,
+                tolerance,
+                deviations};
+    rlvc_q_variance_measure(&p.variance, &agent->replay, &agent->values, agent->config.discount,
+                            classes);
     memset(p.gone, 0, classes * sizeof *p.gone);
     *undone = undo_splits(&p);
     number_classes(&p);
     build_again(&p);
     label_again(&p);
     memset(p.gone, 0, classes * sizeof *p.gone);
-    memset(agent->values.reward, 0,
-           (size_t)classes * agent->config.actions * sizeof *agent->values.reward);
+    memset(agent->values.pair.reward, 0,
+           (size_t)classes * agent->config.actions * sizeof *agent->values.pair.reward);
     return RLVC_OK;
 }

@@ -2,12 +2,12 @@
 /* How sure Q is: see q_variance.h. */
 #include "q_variance.h"
 
-void rlvc_spread_measure(const rlvc_spread *spread, const rlvc_replay *replay,
-                         const rlvc_values *values, float discount, uint32_t classes) {
+void rlvc_q_variance_measure(const rlvc_q_variance *variance, const rlvc_replay *replay,
+                             const rlvc_values *values, float discount, uint32_t classes) {
     const size_t pairs = (size_t)classes * values->actions;
     for (size_t pair = 0; pair < pairs; pair++) {
-        spread->squares[pair] = 0.0f;
-        spread->count[pair] = 0;
+        variance->squares[pair] = 0.0f;
+        variance->count[pair] = 0;
     }
     for (uint32_t position = 0; position < replay->count; position++) {
         const uint32_t slot = rlvc_replay_slot(replay, position);
@@ -22,7 +22,7 @@ void rlvc_spread_measure(const rlvc_spread *spread, const rlvc_replay *replay,
         }
         const size_t pair = rlvc_values_pair(values, replay->label[slot], replay->action[slot]);
         const float off = target - values->q[pair];
-        spread->squares[pair] += off * off;
-        spread->count[pair]++;
+        variance->squares[pair] += off * off;
+        variance->count[pair]++;
     }
 }

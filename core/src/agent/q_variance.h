@@ -11,19 +11,19 @@
 #include "../samples/replay.h"
 #include "../tree/values.h"
 
-typedef struct rlvc_spread {
+typedef struct rlvc_q_variance {
     float *squares;  /* [classes * actions] the sum of (target - Q)^2 */
     uint32_t *count; /* [classes * actions] targets in it */
-} rlvc_spread;
+} rlvc_q_variance;
 
 /* Fills both tables. O(slots + classes * actions). */
-void rlvc_spread_measure(const rlvc_spread *spread, const rlvc_replay *replay,
-                         const rlvc_values *values, float discount, uint32_t classes);
+void rlvc_q_variance_measure(const rlvc_q_variance *variance, const rlvc_replay *replay,
+                             const rlvc_values *values, float discount, uint32_t classes);
 
 /* The square of the standard error of Q of a pair with samples: sum of squares / n^2. O(1). */
-static inline float rlvc_spread_variance(const rlvc_spread *spread, size_t pair) {
-    const float n = (float)spread->count[pair];
-    return spread->squares[pair] / n / n;
+static inline float rlvc_q_variance_of(const rlvc_q_variance *variance, size_t pair) {
+    const float n = (float)variance->count[pair];
+    return variance->squares[pair] / n / n;
 }
 
 #endif

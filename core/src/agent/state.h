@@ -15,17 +15,20 @@
 /* A learning step under way: see learn.c. */
 typedef struct rlvc_learner {
     union {
-        rlvc_grouping grouping;
-        rlvc_search search;
-        rlvc_succession succession;
-        rlvc_model model;
-        rlvc_solver solver;
-        rlvc_seeking seeking;
-    } work;           /* of the phase */
-    uint32_t end;     /* N: interactions at positions [0, end) are the database */
-    uint32_t at;      /* position, pair or class, by phase */
-    uint32_t node;    /* where the walk of the percept at position `at` is; or how many of the
-                         tree's features the class's new one was compared with */
+        rlvc_grouping_cursor grouping;
+        rlvc_split_cursor split;
+        rlvc_successor_cursor successors;
+        rlvc_model_cursor model;
+        rlvc_solver_cursor solver;
+        rlvc_novelty_cursor novelty;
+    } work;       /* of the phase */
+    uint32_t end; /* N: interactions at positions [0, end) are the database */
+    uint32_t at;  /* position, pair or class, by phase */
+    union {
+        uint32_t node; /* LABEL: where the walk of the percept at position `at` is */
+        uint32_t
+            compared; /* a search: how many of the tree's features the new one was compared with */
+    } walk;
     uint32_t classes; /* when this phase began */
     uint32_t rounds;  /* begun in this step */
     uint32_t splits;  /* made in this step */

@@ -7,13 +7,13 @@
 
 #include "assert.h"
 
-uint32_t rlvc_ones(const uint64_t *word, uint32_t words) {
+uint32_t rlvc_popcount(const uint64_t *word, uint32_t words) {
     const uint64_t pairs = 0x5555555555555555u;
     const uint64_t fours = 0x3333333333333333u;
     const uint64_t eights = 0x0f0f0f0f0f0f0f0fu;
     const uint64_t halves = 0x00ff00ff00ff00ffu;
     uint64_t sum = 0;
-    RLVC_ASSERT(words <= RLVC_ONES_WORDS);
+    RLVC_ASSERT(words <= RLVC_POPCOUNT_WORDS);
     for (uint32_t i = 0; i < words; i++) {
         uint64_t v = word[i];
         v -= (v >> 1) & pairs;

@@ -5,9 +5,9 @@
 
 #include <stdint.h>
 
-#define RLVC_ONES_WORDS 31u /* as many as rlvc_ones takes */
+#define RLVC_POPCOUNT_WORDS 31u /* as many as rlvc_popcount takes */
 
-/* How many bits are 1 in `words` <= RLVC_ONES_WORDS words. O(words). */
-uint32_t rlvc_ones(const uint64_t *word, uint32_t words);
+/* How many bits are 1 in `words` <= RLVC_POPCOUNT_WORDS words. O(words). */
+uint32_t rlvc_popcount(const uint64_t *word, uint32_t words);
 
 #endif

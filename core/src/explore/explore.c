@@ -4,47 +4,47 @@
 
 #define ENOUGH 8u
 #define PERSISTENCE 4.0f
-#define LEAST_MIN 3u
+#define MIN_TRIED_MIN 3u
 #define MEAN_PARTS 4u
 
 void rlvc_explorer_carve(rlvc_explorer *explorer, rlvc_arena *arena, const rlvc_config *config) {
     uint64_t pairs = (uint64_t)config->classes * config->actions;
-    explorer->seen = rlvc_arena_carve(arena, pairs, sizeof *explorer->seen);
-    explorer->lead = rlvc_arena_carve(arena, config->classes, sizeof *explorer->lead);
+    explorer->count = rlvc_arena_carve(arena, pairs, sizeof *explorer->count);
+    explorer->to_novel = rlvc_arena_carve(arena, config->classes, sizeof *explorer->to_novel);
 }
 
 void rlvc_explorer_clear(rlvc_explorer *explorer, uint32_t actions) {
     for (uint32_t a = 0; a < actions; a++)
-        explorer->seen[a] = 0;
-    explorer->lead[0] = RLVC_NO_ACTION;
-    explorer->least = 0;
+        explorer->count[a] = 0;
+    explorer->to_novel[0] = RLVC_NO_ACTION;
+    explorer->min_tried = 0;
     explorer->last = RLVC_NO_ACTION;
 }
 
-static uint8_t *seen_in(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id) {
-    return explorer->seen + (size_t)class_id * actions;
+static uint8_t *counts_of(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id) {
+    return explorer->count + (size_t)class_id * actions;
 }
 
 void rlvc_explorer_inherit(rlvc_explorer *explorer, uint32_t actions, uint32_t new_class,
                            uint32_t old_class) {
     for (uint32_t a = 0; a < actions; a++)
-        seen_in(explorer, actions, new_class)[a] = seen_in(explorer, actions, old_class)[a];
-    explorer->lead[new_class] = explorer->lead[old_class];
+        counts_of(explorer, actions, new_class)[a] = counts_of(explorer, actions, old_class)[a];
+    explorer->to_novel[new_class] = explorer->to_novel[old_class];
 }
 
 void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
                         uint32_t other) {
     for (uint32_t a = 0; a < actions; a++) {
-        uint8_t *seen = seen_in(explorer, actions, class_id) + a;
-        uint32_t sum = (uint32_t)*seen + seen_in(explorer, actions, other)[a];
-        *seen = (uint8_t)(sum < UINT8_MAX ? sum : UINT8_MAX);
+        uint8_t *count = counts_of(explorer, actions, class_id) + a;
+        uint32_t sum = (uint32_t)*count + counts_of(explorer, actions, other)[a];
+        *count = (uint8_t)(sum < UINT8_MAX ? sum : UINT8_MAX);
     }
 }
 
-uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs) {
-    uint32_t least = interactions / MEAN_PARTS / pairs;
-    least = least > LEAST_MIN ? least : LEAST_MIN;
-    return (uint8_t)(least < UINT8_MAX ? least : UINT8_MAX);
+uint8_t rlvc_explorer_min_tried(uint32_t interactions, uint32_t pairs) {
+    uint32_t count = interactions / MEAN_PARTS / pairs;
+    count = count > MIN_TRIED_MIN ? count : MIN_TRIED_MIN;
+    return (uint8_t)(count < UINT8_MAX ? count : UINT8_MAX);
 }
 
 /* w(a). */
@@ -58,14 +58,14 @@ static float weight(const rlvc_explorer *explorer, uint32_t n, uint32_t action) 
 
 static uint32_t draw(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
                      rlvc_rng *rng) {
-    const uint8_t *seen = seen_in(explorer, actions, class_id);
+    const uint8_t *count = counts_of(explorer, actions, class_id);
     float sum = 0.0f;
     for (uint32_t a = 0; a < actions; a++)
-        sum += weight(explorer, seen[a], a);
+        sum += weight(explorer, count[a], a);
     float left = rlvc_rng_uniform(rng) * sum;
     uint32_t action = 0;
-    while (action + 1u < actions && left >= weight(explorer, seen[action], action)) {
-        left -= weight(explorer, seen[action], action);
+    while (action + 1u < actions && left >= weight(explorer, count[action], action)) {
+        left -= weight(explorer, count[action], action);
         action++;
     }
     return action;
@@ -74,26 +74,26 @@ static uint32_t draw(const rlvc_explorer *explorer, uint32_t actions, uint32_t c
 /* The action that goes after little-tried pairs. */
 static uint32_t seek(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
                      rlvc_rng *rng) {
-    const uint8_t *seen = seen_in(explorer, actions, class_id);
-    uint32_t least = 0, lead = explorer->lead[class_id];
+    const uint8_t *count = counts_of(explorer, actions, class_id);
+    uint32_t action = 0, to_novel = explorer->to_novel[class_id];
     for (uint32_t a = 1; a < actions; a++)
-        least = seen[a] < seen[least] ? a : least;
-    if (seen[least] < explorer->least)
-        return least;
-    return lead != RLVC_NO_ACTION ? lead : draw(explorer, actions, class_id, rng);
+        action = count[a] < count[action] ? a : action;
+    if (count[action] < explorer->min_tried)
+        return action;
+    return to_novel != RLVC_NO_ACTION ? to_novel : draw(explorer, actions, class_id, rng);
 }
 
 uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
                               rlvc_rng *rng) {
-    if (explorer->least > 0 && rlvc_rng_uniform(rng) < 0.5f)
+    if (explorer->min_tried > 0 && rlvc_rng_uniform(rng) < 0.5f)
         return seek(explorer, actions, class_id, rng);
     return draw(explorer, actions, class_id, rng);
 }
 
 void rlvc_explorer_note(rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,
                         uint32_t action) {
-    uint8_t *seen = seen_in(explorer, actions, class_id) + action;
-    *seen = (uint8_t)(*seen + (*seen < UINT8_MAX));
+    uint8_t *count = counts_of(explorer, actions, class_id) + action;
+    *count = (uint8_t)(*count + (*count < UINT8_MAX));
     explorer->last = (uint8_t)action;
 }
 
@@ -101,7 +101,7 @@ int rlvc_explorer_check(const rlvc_explorer *explorer, uint32_t actions, uint32_
     if (explorer->last != RLVC_NO_ACTION && explorer->last >= actions)
         return 0;
     for (uint32_t c = 0; c < classes; c++) {
-        if (explorer->lead[c] != RLVC_NO_ACTION && explorer->lead[c] >= actions)
+        if (explorer->to_novel[c] != RLVC_NO_ACTION && explorer->to_novel[c] >= actions)
             return 0;
     }
     return 1;

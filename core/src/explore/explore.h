@@ -25,14 +25,14 @@
 #define RLVC_NO_ACTION 255u
 
 typedef struct rlvc_explorer {
-    uint8_t *seen; /* [classes_max][actions] n(c, a): interactions in the ring when last counted,
+    uint8_t *count; /* [classes_max][actions] n(c, a): interactions in the ring when last counted,
                       and choices since; 255 stands for more */
-    uint8_t *lead; /* [classes_max] the action that leads to a little-tried pair of another class
-                      soonest, as was found when last looked; RLVC_NO_ACTION: none can be
+    uint8_t *to_novel; /* [classes_max] the action that leads to a little-tried pair of another
+                      class soonest, as was found when last looked; RLVC_NO_ACTION: none can be
                       reached, or one of the class's own was little tried */
-    uint8_t least; /* m; 0 before the first learning step, when nothing is known of what leads
+    uint8_t min_tried; /* m; 0 before the first learning step, when nothing is known of what leads
                       where */
-    uint8_t last;  /* the action before, or RLVC_NO_ACTION */
+    uint8_t last;      /* the action before, or RLVC_NO_ACTION */
 } rlvc_explorer;
 
 /* Carves the tables. O(1). */
@@ -50,7 +50,7 @@ void rlvc_explorer_join(rlvc_explorer *explorer, uint32_t actions, uint32_t clas
                         uint32_t other);
 
 /* m for a database of so many interactions of so many pairs. O(1). */
-uint8_t rlvc_explorer_least(uint32_t interactions, uint32_t pairs);
+uint8_t rlvc_explorer_min_tried(uint32_t interactions, uint32_t pairs);
 
 /* Chooses an exploring action for a class. O(actions). */
 uint32_t rlvc_explorer_choose(const rlvc_explorer *explorer, uint32_t actions, uint32_t class_id,

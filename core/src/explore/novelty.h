@@ -13,8 +13,8 @@
  *
  * The sweeps begin at U = 0 and only raise it; the last one is that which raises no U by more than
  * 0.001, and what is worth no more than that counts as out of reach. Tried means tried in the ring:
- * what has left it is worth another look. U lies in values.reward, which nobody needs between a
- * solution and the next model. */
+ * what has left it is worth another look. U lies in values.pair.nearness, which nobody needs
+ * between a solution and the next model. */
 #ifndef RLVC_SRC_NOVELTY_H
 #define RLVC_SRC_NOVELTY_H
 
@@ -22,7 +22,7 @@
 #include "../base/mean.h"
 #include "../solve/value_iteration.h"
 
-typedef struct rlvc_seeking {
+typedef struct rlvc_novelty_cursor {
     rlvc_sum sum;
     float largest; /* change of U so far in this sweep */
     float best;    /* max U(c, a) over the actions of the class so far */
@@ -30,23 +30,24 @@ typedef struct rlvc_seeking {
     uint32_t class_id; /* where the sweep is: class, action, transition */
     uint32_t action;
     uint32_t transition;
-    uint8_t lead; /* the action that attains best */
+    uint8_t action_best; /* the action that attains best */
     uint8_t done;
-} rlvc_seeking;
+} rlvc_novelty_cursor;
 
-/* Begins; explorer->least is m. O(classes). */
-void rlvc_seeking_begin(rlvc_seeking *seeking, const rlvc_solving *solving, rlvc_values *values);
+/* Begins; explorer->min_tried is m. O(classes). */
+void rlvc_novelty_begin(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
+                        rlvc_values *values);
 
 /* Works for one budget on the tables of the explorer. The first sweep counts n(c, a), unless
- * explorer->seen is null: when a snapshot's cursor is brought where it was, what has been counted
+ * explorer->count is null: when a snapshot's cursor is brought where it was, what has been counted
  * since must stay.
  * @return the work, at most budget (>= 1): a unit for each transition and each pair, in each sweep.
  */
-uint32_t rlvc_seeking_step(rlvc_seeking *seeking, const rlvc_solving *solving, rlvc_values *values,
-                           rlvc_explorer *explorer, uint32_t budget);
+uint32_t rlvc_novelty_step(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
+                           rlvc_values *values, rlvc_explorer *explorer, uint32_t budget);
 
 /* How far the cursor has come, for a snapshot: the same only for the same state on the same
  * input. */
-void rlvc_seeking_mark(const rlvc_seeking *seeking, uint32_t word[4]);
+void rlvc_novelty_mark(const rlvc_novelty_cursor *cursor, uint32_t word[4]);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The decision tree of the fewest leaves: see rlvc/fewest.h.
+/* The decision tree of the fewest leaves: see rlvc/min_tree.h.
  *
  * For a subset S of the rows let F(S) be the fewest leaves of a tree in which each ends well:
  *
@@ -23,7 +23,7 @@
  *
  * grow() then puts the tree down from its root, as the table says; where that or the effort did not
  * suffice, by the feature that purifies best. */
-#include "rlvc/fewest.h"
+#include "rlvc/min_tree.h"
 
 #include "../base/arena.h"
 #include <string.h>
@@ -36,12 +36,12 @@ typedef struct entry {
     uint32_t feature; /* the root's of a tree of so many leaves, or NONE */
 } entry;
 
-/* What is known of a stretch at a glance. */
-typedef struct glance {
+/* What is known of a stretch at a bounds. */
+typedef struct bounds {
     uint32_t leaves; /* F(S), or a lower bound of it */
     uint32_t slot;   /* its place in the table, used or not; of no meaning if one leaf is enough */
     uint8_t exact;   /* leaves is F(S) */
-} glance;
+} bounds;
 
 /* How far the search for the tree of a stretch has come. */
 typedef struct frame {
@@ -52,7 +52,7 @@ typedef struct frame {
     uint32_t root;       /* the feature at its root, or NONE */
     uint32_t bound;      /* the least sum of both sides' bounds among the features passed */
     uint32_t feature;    /* under trial */
-    glance side[2];      /* without and with it; looked at if `parted` */
+    bounds side[2];      /* without and with it; looked at if `parted` */
     uint8_t parted;
     uint8_t above; /* the side that the frame above solves, if `entered` */
     uint8_t entered;
@@ -63,30 +63,30 @@ typedef struct part {
     uint32_t begin, end, leaf;
 } part;
 
-typedef struct fewest {
-    const rlvc_fewest_task *task;
+typedef struct min_tree {
+    const rlvc_min_tree_task *task;
     uint32_t words;
-    uint32_t mask;            /* slots of the table - 1 */
-    uint32_t used;            /* of them */
-    uint32_t deep;            /* frames in use */
-    uint32_t leaves;          /* of the tree so far */
-    uint32_t actions;         /* the highest that a row allows, and 1 */
-    uint64_t left;            /* of the effort of this search */
-    uint8_t torn;             /* alike rows without a common action were met */
-    entry *table;             /* [mask + 1] */
-    uint64_t *keys;           /* [mask + 1][2 * words] features shared, their values */
-    uint64_t *key;            /* [2 * words] that of the stretch last looked at */
-    uint32_t *order;          /* [rows] */
-    frame *frames;            /* [depth] */
-    part *todo;               /* [depth + 1] a stack, too */
-    rlvc_fewest_split *split; /* [rows - 1] */
-    uint8_t *action;          /* [rows] */
-} fewest;
+    uint32_t mask;              /* slots of the table - 1 */
+    uint32_t used;              /* of them */
+    uint32_t deep;              /* frames in use */
+    uint32_t leaves;            /* of the tree so far */
+    uint32_t actions;           /* the highest that a row allows, and 1 */
+    uint64_t left;              /* of the effort of this search */
+    uint8_t infeasible;         /* alike rows without a common action were met */
+    entry *table;               /* [mask + 1] */
+    uint64_t *keys;             /* [mask + 1][2 * words] features shared, their values */
+    uint64_t *key;              /* [2 * words] that of the stretch last looked at */
+    uint32_t *order;            /* [rows] */
+    frame *frames;              /* [depth] */
+    part *todo;                 /* [depth + 1] a stack, too */
+    rlvc_min_tree_split *split; /* [rows - 1] */
+    uint8_t *action;            /* [rows] */
+} min_tree;
 
-static void carve(fewest *s, rlvc_arena *arena) {
-    const rlvc_fewest_task *task = s->task;
+static void carve(min_tree *s, rlvc_arena *arena) {
+    const rlvc_min_tree_task *task = s->task;
     uint64_t depth = (uint64_t)(task->features < task->rows ? task->features : task->rows) + 1u;
-    s->words = RLVC_FEWEST_WORDS(task->features);
+    s->words = RLVC_MIN_TREE_WORDS(task->features);
     for (s->mask = 1; s->mask < task->entries / 2u;)
         s->mask = 2u * s->mask + 1u;
     s->split = rlvc_arena_carve(arena, task->rows, sizeof *s->split);
@@ -99,26 +99,26 @@ static void carve(fewest *s, rlvc_arena *arena) {
     s->keys = rlvc_arena_carve(arena, ((uint64_t)s->mask + 1u) * 2u * s->words, sizeof *s->keys);
 }
 
-static const uint64_t *row_at(const fewest *s, uint32_t at) {
+static const uint64_t *row_at(const min_tree *s, uint32_t at) {
     return s->task->row + (size_t)s->order[at] * s->words;
 }
 
-static uint64_t allowed_at(const fewest *s, uint32_t at) {
+static uint64_t allowed_at(const min_tree *s, uint32_t at) {
     return s->task->allowed[s->order[at]];
 }
 
-static int exhibits(const fewest *s, uint32_t at, uint32_t feature) {
+static int exhibits(const min_tree *s, uint32_t at, uint32_t feature) {
     return (int)(row_at(s, at)[feature / 64u] >> feature % 64u & 1u);
 }
 
-static void spend(fewest *s, uint64_t words) {
+static void spend(min_tree *s, uint64_t words) {
     s->left -= words < s->left ? words : s->left;
 }
 
 /* ------------------------------------------------------------------ the table */
 
 /* Where the key stands in the table, or would. */
-static uint32_t find(const fewest *s) {
+static uint32_t find(const min_tree *s) {
     uint64_t hash = 0;
     for (uint32_t w = 0; w < 2u * s->words; w++) {
         hash = (hash ^ s->key[w]) * 0x9E3779B97F4A7C15u;
@@ -132,7 +132,7 @@ static uint32_t find(const fewest *s) {
     return slot;
 }
 
-static void clear(fewest *s) {
+static void clear(min_tree *s) {
     memset(s->table, 0, ((size_t)s->mask + 1u) * sizeof *s->table);
     s->used = 0;
     s->deep = 0;
@@ -140,7 +140,7 @@ static void clear(fewest *s) {
 
 /* Makes the key of a stretch: the features that all its rows share, then their values.
  * @return whether there is a feature that parts it. */
-static int make_key(fewest *s, uint32_t begin, uint32_t end) {
+static int make_key(min_tree *s, uint32_t begin, uint32_t end) {
     uint64_t *any = s->key, *all = s->key + s->words;
     int parts = 0;
     memset(any, 0, s->words * sizeof *any);
@@ -162,7 +162,7 @@ static int make_key(fewest *s, uint32_t begin, uint32_t end) {
 }
 
 /* The actions that all rows of a stretch allow. */
-static uint64_t common(const fewest *s, uint32_t begin, uint32_t end) {
+static uint64_t common(const min_tree *s, uint32_t begin, uint32_t end) {
     uint64_t actions = UINT64_MAX;
     for (uint32_t at = begin; at < end; at++)
         actions &= allowed_at(s, at);
@@ -170,7 +170,7 @@ static uint64_t common(const fewest *s, uint32_t begin, uint32_t end) {
 }
 
 /* A lower bound of F(S): rows that pairwise allow nothing in common need a leaf each. */
-static uint32_t lower_bound(const fewest *s, uint32_t begin, uint32_t end) {
+static uint32_t lower_bound(const min_tree *s, uint32_t begin, uint32_t end) {
     uint64_t taken = 0;
     uint32_t count = 0;
     for (uint32_t at = begin; at < end; at++) {
@@ -182,8 +182,8 @@ static uint32_t lower_bound(const fewest *s, uint32_t begin, uint32_t end) {
     return count < 2 ? 2 : count;
 }
 
-/* Betters a glance by what the table knows. */
-static void recall(const fewest *s, glance *seen) {
+/* Betters a bounds by what the table knows. */
+static void recall(const min_tree *s, bounds *seen) {
     const entry *known = &s->table[seen->slot];
     if (known->leaves > seen->leaves)
         seen->leaves = known->leaves;
@@ -191,13 +191,13 @@ static void recall(const fewest *s, glance *seen) {
 }
 
 /* Looks at a stretch that is not empty, and unless one leaf is enough makes its key. */
-static glance look(fewest *s, uint32_t begin, uint32_t end) {
-    glance seen = {1, 0, 1};
+static bounds inspect(min_tree *s, uint32_t begin, uint32_t end) {
+    bounds seen = {1, 0, 1};
     spend(s, (uint64_t)(end - begin) * (s->words + 1u));
     if (common(s, begin, end) != 0)
         return seen;
     if (!make_key(s, begin, end))
-        s->torn = 1;
+        s->infeasible = 1;
     seen.leaves = lower_bound(s, begin, end);
     seen.slot = find(s);
     recall(s, &seen);
@@ -208,7 +208,7 @@ static glance look(fewest *s, uint32_t begin, uint32_t end) {
 
 /* Brings the rows of a stretch that lack a feature before those that have it. Returns where these
  * begin. */
-static uint32_t partition(fewest *s, uint32_t begin, uint32_t end, uint32_t feature) {
+static uint32_t partition(min_tree *s, uint32_t begin, uint32_t end, uint32_t feature) {
     spend(s, end - begin);
     while (begin < end) {
         if (exhibits(s, begin, feature)) {
@@ -225,7 +225,7 @@ static uint32_t partition(fewest *s, uint32_t begin, uint32_t end, uint32_t feat
 /* Begins to search for a tree of at most `limit` leaves of a stretch, which was the last looked at,
  * so that the key is its own.
  * @return 0: the table is full, or the effort is spent. */
-static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, uint32_t limit) {
+static int enter(min_tree *s, uint32_t begin, uint32_t end, const bounds *seen, uint32_t limit) {
     const frame fresh = {.begin = begin,
                          .end = end,
                          .middle = begin,
@@ -249,7 +249,7 @@ static int enter(fewest *s, uint32_t begin, uint32_t end, const glance *seen, ui
 
 /* Ends the search of the frame on top. If it found no tree within its limit, all features were
  * passed, and the least of their bounds is one of F(S). */
-static void leave(fewest *s) {
+static void leave(min_tree *s) {
     const frame *f = &s->frames[--s->deep];
     entry *known = &s->table[f->slot];
     if (f->root != NONE) {
@@ -262,26 +262,26 @@ static void leave(fewest *s) {
 
 /* Parts the stretch by the feature under trial and looks at both sides.
  * @return 0: one of them is empty. */
-static int look_at_sides(fewest *s, frame *f) {
+static int inspect_sides(min_tree *s, frame *f) {
     f->middle = partition(s, f->begin, f->end, f->feature);
     if (f->middle == f->begin || f->middle == f->end)
         return 0;
-    f->side[0] = look(s, f->begin, f->middle);
-    f->side[1] = look(s, f->middle, f->end);
+    f->side[0] = inspect(s, f->begin, f->middle);
+    f->side[1] = inspect(s, f->middle, f->end);
     f->parted = 1;
     return 1;
 }
 
 /* Goes on to the next feature. What is known to need so many leaves cannot be better. */
-static void next_feature(fewest *s, frame *f) {
-    const int fewest_possible = f->root != NONE && f->best == s->table[f->slot].leaves;
+static void next_feature(min_tree *s, frame *f) {
+    const int cannot_improve = f->root != NONE && f->best == s->table[f->slot].leaves;
     f->parted = 0;
-    f->feature = fewest_possible ? s->task->features : f->feature + 1u;
+    f->feature = cannot_improve ? s->task->features : f->feature + 1u;
 }
 
 /* Goes one step further in the frame on top.
  * @return 0: the table is full, or the effort is spent. */
-static int step(fewest *s) {
+static int step(min_tree *s) {
     frame *f = &s->frames[s->deep - 1u];
     if (f->feature == s->task->features) {
         leave(s);
@@ -290,7 +290,7 @@ static int step(fewest *s) {
     if (f->entered)
         recall(s, &f->side[f->above]);
     f->entered = 0;
-    if (!f->parted && !look_at_sides(s, f)) {
+    if (!f->parted && !inspect_sides(s, f)) {
         next_feature(s, f);
         return 1;
     }
@@ -306,7 +306,7 @@ static int step(fewest *s) {
         return 1;
     }
     const uint32_t begin = side ? f->middle : f->begin, end = side ? f->end : f->middle;
-    f->side[side] = look(s, begin, end); /* for its key, and as its place may have been taken */
+    f->side[side] = inspect(s, begin, end); /* for its key, and as its place may have been taken */
     f->above = side;
     f->entered = 1;
     return enter(s, begin, end, &f->side[side], f->best - 1u - f->side[1u - side].leaves);
@@ -314,23 +314,23 @@ static int step(fewest *s) {
 
 /* Looks for the best tree of a stretch.
  * @return whether the table has it now. */
-static int search(fewest *s, uint32_t begin, uint32_t end) {
+static int search(min_tree *s, uint32_t begin, uint32_t end) {
     const uint32_t rows = end - begin;
     clear(s);
     s->left = s->task->effort * rows / s->task->rows + rows;
-    glance seen = look(s, begin, end);
+    bounds seen = inspect(s, begin, end);
     int goes_on = enter(s, begin, end, &seen, rows);
-    while (goes_on && s->deep > 0 && !s->torn)
+    while (goes_on && s->deep > 0 && !s->infeasible)
         goes_on = step(s);
-    return goes_on && !s->torn;
+    return goes_on && !s->infeasible;
 }
 
 /* ------------------------------------------------------------------ the greedy way */
 
 /* Counts, for each action, the rows of a stretch that allow it. */
-static void count_allowed(const fewest *s, uint32_t begin, uint32_t end,
-                          uint32_t count[RLVC_FEWEST_ACTIONS_MAX]) {
-    memset(count, 0, RLVC_FEWEST_ACTIONS_MAX * sizeof *count);
+static void count_allowed(const min_tree *s, uint32_t begin, uint32_t end,
+                          uint32_t count[RLVC_MIN_TREE_ACTIONS_MAX]) {
+    memset(count, 0, RLVC_MIN_TREE_ACTIONS_MAX * sizeof *count);
     for (uint32_t at = begin; at < end; at++) {
         for (uint32_t a = 0; a < s->actions; a++)
             count[a] += (uint32_t)(allowed_at(s, at) >> a & 1u);
@@ -338,8 +338,8 @@ static void count_allowed(const fewest *s, uint32_t begin, uint32_t end,
 }
 
 /* Of the actions that a row allows the one that most do. */
-static uint32_t favourite(const fewest *s, uint64_t allowed,
-                          const uint32_t count[RLVC_FEWEST_ACTIONS_MAX]) {
+static uint32_t favourite(const min_tree *s, uint64_t allowed,
+                          const uint32_t count[RLVC_MIN_TREE_ACTIONS_MAX]) {
     uint32_t best = s->actions;
     for (uint32_t a = 0; a < s->actions; a++) {
         if ((allowed >> a & 1u) && (best == s->actions || count[a] > count[best]))
@@ -349,9 +349,9 @@ static uint32_t favourite(const fewest *s, uint64_t allowed,
 }
 
 /* The sum over the sides of sum_a n_a^2 / n: the greater, the purer (Gini). 0 if one is empty. */
-static float purity(const fewest *s, uint32_t begin, uint32_t end, uint32_t feature,
-                    const uint32_t count[RLVC_FEWEST_ACTIONS_MAX]) {
-    uint32_t favours[2][RLVC_FEWEST_ACTIONS_MAX], rows[2] = {0, 0};
+static float purity(const min_tree *s, uint32_t begin, uint32_t end, uint32_t feature,
+                    const uint32_t count[RLVC_MIN_TREE_ACTIONS_MAX]) {
+    uint32_t favours[2][RLVC_MIN_TREE_ACTIONS_MAX], rows[2] = {0, 0};
     float sum = 0.0f;
     memset(favours, 0, sizeof favours);
     for (uint32_t at = begin; at < end; at++) {
@@ -369,8 +369,8 @@ static float purity(const fewest *s, uint32_t begin, uint32_t end, uint32_t feat
 }
 
 /* The feature that purifies a stretch best; of equals the lowest. */
-static uint32_t purest(const fewest *s, uint32_t begin, uint32_t end) {
-    uint32_t count[RLVC_FEWEST_ACTIONS_MAX], best = 0;
+static uint32_t purest(const min_tree *s, uint32_t begin, uint32_t end) {
+    uint32_t count[RLVC_MIN_TREE_ACTIONS_MAX], best = 0;
     float most = 0.0f;
     count_allowed(s, begin, end, count);
     for (uint32_t feature = 0; feature < s->task->features; feature++) {
@@ -393,36 +393,36 @@ static uint8_t lowest(uint64_t actions) {
 }
 
 /* The feature at the root of a stretch's tree. */
-static uint32_t root_of(fewest *s, uint32_t begin, uint32_t end, const glance *seen,
+static uint32_t root_of(min_tree *s, uint32_t begin, uint32_t end, const bounds *seen,
                         uint8_t *exact) {
     if (seen->exact)
         return s->table[seen->slot].feature;
     if (search(s, begin, end)) {
-        glance solved = look(s, begin, end);
+        bounds solved = inspect(s, begin, end);
         return s->table[solved.slot].feature;
     }
     *exact = 0;
     clear(s);
-    return s->torn ? 0 : purest(s, begin, end);
+    return s->infeasible ? 0 : purest(s, begin, end);
 }
 
 /* Puts the tree down from its root, absent before present. A subset of one whose tree is in the
  * table is there, too. */
-static uint8_t grow(fewest *s) {
+static uint8_t grow(min_tree *s) {
     uint32_t parts = 1;
     uint8_t exact = 1;
     const part all = {0, s->task->rows, 0};
     s->todo[0] = all;
     s->leaves = 1;
-    while (parts > 0 && !s->torn) {
+    while (parts > 0 && !s->infeasible) {
         const part now = s->todo[--parts];
-        const glance seen = look(s, now.begin, now.end);
+        const bounds seen = inspect(s, now.begin, now.end);
         if (seen.leaves == 1) {
             s->action[now.leaf] = lowest(common(s, now.begin, now.end));
-        } else if (!s->torn) {
+        } else if (!s->infeasible) {
             const uint32_t feature = root_of(s, now.begin, now.end, &seen, &exact);
             const uint32_t middle = partition(s, now.begin, now.end, feature);
-            const rlvc_fewest_split split = {now.leaf, feature};
+            const rlvc_min_tree_split split = {now.leaf, feature};
             const part present = {middle, now.end, s->leaves},
                        absent = {now.begin, middle, now.leaf};
             s->split[s->leaves++ - 1u] = split;
@@ -435,16 +435,16 @@ static uint8_t grow(fewest *s) {
 
 /* ------------------------------------------------------------------ for the caller */
 
-static int task_is_sound(const rlvc_fewest_task *task) {
-    return task->rows >= 1 && task->rows <= RLVC_FEWEST_ROWS_MAX &&
-           task->features <= RLVC_FEWEST_FEATURES_MAX && task->entries >= 2 &&
-           task->entries <= RLVC_FEWEST_ENTRIES_MAX && task->reserved == 0 && task->effort >= 1 &&
-           task->effort <= RLVC_FEWEST_EFFORT_MAX;
+static int task_is_sound(const rlvc_min_tree_task *task) {
+    return task->rows >= 1 && task->rows <= RLVC_MIN_TREE_ROWS_MAX &&
+           task->features <= RLVC_MIN_TREE_FEATURES_MAX && task->entries >= 2 &&
+           task->entries <= RLVC_MIN_TREE_ENTRIES_MAX && task->reserved == 0 && task->effort >= 1 &&
+           task->effort <= RLVC_MIN_TREE_EFFORT_MAX;
 }
 
 /* Is no row without an action, and none with a bit beyond its features? */
-static int rows_are_sound(const rlvc_fewest_task *task) {
-    const uint32_t words = RLVC_FEWEST_WORDS(task->features), rest = task->features % 64u;
+static int rows_are_sound(const rlvc_min_tree_task *task) {
+    const uint32_t words = RLVC_MIN_TREE_WORDS(task->features), rest = task->features % 64u;
     for (uint32_t i = 0; i < task->rows; i++) {
         if (task->allowed[i] == 0 ||
             (rest != 0 && task->row[(size_t)(i + 1u) * words - 1u] >> rest != 0))
@@ -453,14 +453,14 @@ static int rows_are_sound(const rlvc_fewest_task *task) {
     return 1;
 }
 
-rlvc_status rlvc_fewest_size(const rlvc_fewest_task *task, size_t *bytes) {
+rlvc_status rlvc_min_tree_size(const rlvc_min_tree_task *task, size_t *bytes) {
     if (!task || !bytes)
         return RLVC_E_NULL;
     *bytes = 0;
     if (!task_is_sound(task))
         return RLVC_E_RANGE;
     rlvc_arena arena = {NULL, 0};
-    fewest s;
+    min_tree s;
     s.task = task;
     carve(&s, &arena);
     if (arena.used > SIZE_MAX)
@@ -469,12 +469,12 @@ rlvc_status rlvc_fewest_size(const rlvc_fewest_task *task, size_t *bytes) {
     return RLVC_OK;
 }
 
-rlvc_status rlvc_fewest(const rlvc_fewest_task *task, void *memory, size_t bytes,
-                        rlvc_fewest_tree *tree) {
+rlvc_status rlvc_min_tree(const rlvc_min_tree_task *task, void *memory, size_t bytes,
+                          rlvc_min_tree_result *tree) {
     size_t needed = 0;
     if (!task || !tree || !memory || !task->allowed || (!task->row && task->features > 0))
         return RLVC_E_NULL;
-    rlvc_status status = rlvc_fewest_size(task, &needed);
+    rlvc_status status = rlvc_min_tree_size(task, &needed);
     if (status == RLVC_OK && !rows_are_sound(task))
         status = RLVC_E_RANGE;
     if (status == RLVC_OK && (bytes < needed || (uintptr_t)memory % RLVC_ALIGNMENT != 0))
@@ -482,19 +482,19 @@ rlvc_status rlvc_fewest(const rlvc_fewest_task *task, void *memory, size_t bytes
     if (status != RLVC_OK)
         return status;
     rlvc_arena arena = {(unsigned char *)memory, 0};
-    const rlvc_fewest_task copied = *task; /* it may lie in the block */
-    fewest s;
+    const rlvc_min_tree_task copied = *task; /* it may lie in the block */
+    min_tree s;
     memset(&s, 0, sizeof s);
     s.task = &copied;
     carve(&s, &arena);
     clear(&s);
     for (uint32_t i = 0; i < copied.rows; i++) {
         s.order[i] = i;
-        while (s.actions < RLVC_FEWEST_ACTIONS_MAX && copied.allowed[i] >> s.actions != 0)
+        while (s.actions < RLVC_MIN_TREE_ACTIONS_MAX && copied.allowed[i] >> s.actions != 0)
             s.actions++;
     }
     const uint8_t exact = grow(&s);
-    if (s.torn)
+    if (s.infeasible)
         return RLVC_E_RANGE;
     memset(tree, 0, sizeof *tree);
     tree->split = s.split;

@@ -7,11 +7,11 @@
  *
  *     number, origin   the tree's distinct features: which one each split tests, and a split of
  * each row, allowed     the ring's distinct percepts, by these features scratch          first an
- * index of the rows, to tell whether one is new; then what rlvc_fewest works in, and leaves its
+ * index of the rows, to tell whether one is new; then what rlvc_min_tree works in, and leaves its
  * tree in; or else the leaf that each node of the agent's tree begins in the collapsed one */
 #include "rlvc/policy.h"
 
-#include "rlvc/fewest.h"
+#include "rlvc/min_tree.h"
 
 #include "../export/collapse.h"
 #include "../export/export_tree.h"
@@ -34,7 +34,7 @@ typedef struct maker {
     const rlvc_policy_config *config;
     rlvc_policy *policy;
     rlvc_policy made; /* laid out, until there is a place for it */
-    rlvc_fewest_task task;
+    rlvc_min_tree_task task;
     uint64_t kept; /* bytes of the policy itself */
     uint64_t scratch_bytes;
     uint32_t index_mask; /* entries of the index - 1 */
@@ -71,7 +71,7 @@ static void at_least(uint64_t *bytes, uint64_t needed) {
 static void carve(maker *m, rlvc_arena *arena) {
     const rlvc_tree *tree = &m->agent->tree;
     const uint64_t percepts = m->config->percepts;
-    m->words = RLVC_FEWEST_WORDS(m->task.features);
+    m->words = RLVC_MIN_TREE_WORDS(m->task.features);
     for (m->index_mask = 1; m->index_mask < 2u * m->config->percepts;)
         m->index_mask = 2u * m->index_mask + 1u;
     m->policy = rlvc_arena_carve(arena, 1, sizeof *m->policy);
@@ -91,7 +91,7 @@ static void carve(maker *m, rlvc_arena *arena) {
 static rlvc_status lay_out(maker *m, const rlvc_agent *agent, const rlvc_policy_config *config,
                            void *memory, size_t *bytes) {
     rlvc_arena arena = {memory, 0};
-    size_t fewest = 0;
+    size_t search_bytes = 0;
     memset(m, 0, sizeof *m);
     m->agent = agent;
     m->config = config;
@@ -100,12 +100,12 @@ static rlvc_status lay_out(maker *m, const rlvc_agent *agent, const rlvc_policy_
     m->task.entries = config->entries;
     m->task.reserved = config->reserved;
     m->task.effort = config->effort;
-    rlvc_status status = rlvc_fewest_size(&m->task, &fewest);
+    rlvc_status status = rlvc_min_tree_size(&m->task, &search_bytes);
     if (!(config->tolerance >= 0.0f && config->tolerance <= RLVC_REWARD_MAX))
         status = RLVC_E_RANGE;
     if (status != RLVC_OK)
         return status;
-    m->scratch_bytes = fewest;
+    m->scratch_bytes = search_bytes;
     carve(m, &arena);
     if (arena.used > SIZE_MAX)
         return RLVC_E_MEMORY;
@@ -221,7 +221,7 @@ static void split(maker *m, uint32_t leaf, const void *feature) {
 }
 
 /* The tree that was found. */
-static void take_fewest(maker *m, const rlvc_fewest_tree *found) {
+static void take_fewest(maker *m, const rlvc_min_tree_result *found) {
     begin_tree(m->policy, 0);
     for (uint32_t j = 0; j + 1u < found->leaves; j++)
         split(m, found->split[j].leaf,
@@ -252,11 +252,11 @@ static rlvc_status choose(maker *m, rlvc_policy_info *info) {
     const rlvc_agent *agent = m->agent;
     rlvc_compact collapsed = {
         {NULL, NULL, RLVC_OK}, &agent->tree, agent->values.policy, NULL, agent->config.actions, 0};
-    rlvc_fewest_tree found;
+    rlvc_min_tree_result found;
     int fit = 0;
     memset(&found, 0, sizeof found);
     rlvc_compact_count(&collapsed);
-    if (agent->config.actions <= RLVC_FEWEST_ACTIONS_MAX) {
+    if (agent->config.actions <= RLVC_MIN_TREE_ACTIONS_MAX) {
         const rlvc_status status = gather(m, &fit);
         if (status != RLVC_OK)
             return status;
@@ -264,7 +264,7 @@ static rlvc_status choose(maker *m, rlvc_policy_info *info) {
     if (fit) {
         m->task.row = m->row;
         m->task.allowed = m->allowed;
-        (void)rlvc_fewest(&m->task, m->scratch, (size_t)m->scratch_bytes, &found);
+        (void)rlvc_min_tree(&m->task, m->scratch, (size_t)m->scratch_bytes, &found);
         RLVC_UNPOISON(m->scratch, (size_t)m->scratch_bytes);
     }
     info->classes = agent->tree.classes;

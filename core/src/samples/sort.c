@@ -39,11 +39,11 @@ enum { INSERT, FIND, COUNT, PLACE };
 #define ACTION_MAX RLVC_BUDGET_MIN
 
 /* The scratch: where the unfilled part of each bucket begins, and where the bucket ends. */
-static uint32_t *next_of(const rlvc_sort *sort) {
+static uint32_t *next_of(const rlvc_sort_cursor *sort) {
     return sort->scratch;
 }
 
-static uint32_t *end_of(const rlvc_sort *sort) {
+static uint32_t *end_of(const rlvc_sort_cursor *sort) {
     return sort->scratch + BUCKETS_MAX;
 }
 
@@ -52,11 +52,11 @@ static uint32_t least(uint32_t a, uint32_t b) {
 }
 
 /* The bits of a key by which the deepest level is distributed. */
-static uint32_t upper_bits(const rlvc_sort *sort) {
+static uint32_t upper_bits(const rlvc_sort_cursor *sort) {
     return sort->level == 0 ? 0u : UINT32_MAX << sort->shift[sort->level];
 }
 
-static void begin_run(rlvc_sort *sort, uint32_t at) {
+static void begin_run(rlvc_sort_cursor *sort, uint32_t at) {
     sort->begin = at;
     sort->at = at;
     sort->differ = 0;
@@ -64,13 +64,13 @@ static void begin_run(rlvc_sort *sort, uint32_t at) {
 }
 
 /* Leaves the levels that end where the run at work begins. */
-static void leave_levels(rlvc_sort *sort) {
+static void leave_levels(rlvc_sort_cursor *sort) {
     while (sort->level > 0 && sort->begin == sort->level_end[sort->level])
         sort->level--;
     sort->done = sort->begin == sort->level_end[0];
 }
 
-void rlvc_sort_begin(rlvc_sort *sort, rlvc_sample *sample, uint32_t count, void *scratch) {
+void rlvc_sort_begin(rlvc_sort_cursor *sort, rlvc_sample *sample, uint32_t count, void *scratch) {
     RLVC_ASSERT(count <= INT32_MAX);
     sort->sample = sample;
     sort->scratch = (uint32_t *)scratch;
@@ -83,7 +83,7 @@ void rlvc_sort_begin(rlvc_sort *sort, rlvc_sample *sample, uint32_t count, void 
 }
 
 /* Places the samples of a level by insertion, each at most SHORT_RUN places down its bucket. */
-static uint32_t insert_step(rlvc_sort *sort, uint32_t budget) {
+static uint32_t insert_step(rlvc_sort_cursor *sort, uint32_t budget) {
     rlvc_sample *sample = sort->sample;
     const uint32_t upper = upper_bits(sort);
     const uint32_t end = sort->level_end[sort->level];
@@ -117,7 +117,7 @@ static uint32_t insert_step(rlvc_sort *sort, uint32_t budget) {
 
 /* Makes the run [begin, at) a new level, to be distributed by the digit that begins with the
  * highest bit in which its keys differ. Returns the units used. */
-static uint32_t enter_level(rlvc_sort *sort) {
+static uint32_t enter_level(rlvc_sort_cursor *sort) {
     const uint32_t samples = sort->at - sort->begin;
     uint32_t buckets = BUCKETS_MIN;
     uint8_t shift = 0;
@@ -138,7 +138,7 @@ static uint32_t enter_level(rlvc_sort *sort) {
 }
 
 /* Goes to the end of the bucket. */
-static uint32_t find_step(rlvc_sort *sort, uint32_t budget) {
+static uint32_t find_step(rlvc_sort_cursor *sort, uint32_t budget) {
     const rlvc_sample *sample = sort->sample;
     const uint32_t first = sample[sort->begin].key;
     const uint32_t upper = upper_bits(sort);
@@ -162,7 +162,7 @@ static uint32_t find_step(rlvc_sort *sort, uint32_t budget) {
 }
 
 /* Counts in end_of(sort); then turns the counts into the buckets' ends and beginnings. */
-static uint32_t count_step(rlvc_sort *sort, uint32_t budget) {
+static uint32_t count_step(rlvc_sort_cursor *sort, uint32_t budget) {
     uint32_t *end = end_of(sort);
     const uint32_t shift = sort->shift[sort->level];
     const uint32_t mask = sort->buckets - 1u;
@@ -187,7 +187,7 @@ static uint32_t count_step(rlvc_sort *sort, uint32_t budget) {
 }
 
 /* Exchanges samples of the unfilled part of one bucket after the other. */
-static uint32_t place_step(rlvc_sort *sort, uint32_t budget) {
+static uint32_t place_step(rlvc_sort_cursor *sort, uint32_t budget) {
     rlvc_sample *sample = sort->sample;
     uint32_t *next = next_of(sort);
     const uint32_t *end = end_of(sort);
@@ -217,7 +217,7 @@ static uint32_t place_step(rlvc_sort *sort, uint32_t budget) {
     return budget - left;
 }
 
-uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget) {
+uint32_t rlvc_sort_step(rlvc_sort_cursor *sort, uint32_t budget) {
     uint32_t left = budget;
     RLVC_ASSERT(budget >= RLVC_BUDGET_MIN);
     while (!sort->done && left >= ACTION_MAX)
@@ -232,7 +232,7 @@ uint32_t rlvc_sort_step(rlvc_sort *sort, uint32_t budget) {
     return budget - left;
 }
 
-void rlvc_sort_single(rlvc_sort *sort) {
+void rlvc_sort_single(rlvc_sort_cursor *sort) {
     int counting = sort->at < sort->level_end[sort->level];
     if (sort->phase == INSERT)
         (void)insert_step(sort, SHORT_RUN + 1u);
@@ -244,7 +244,7 @@ void rlvc_sort_single(rlvc_sort *sort) {
         (void)place_step(sort, 3u);
 }
 
-void rlvc_sort_mark(const rlvc_sort *sort, uint32_t word[5]) {
+void rlvc_sort_mark(const rlvc_sort_cursor *sort, uint32_t word[5]) {
     word[0] = sort->phase | (uint32_t)sort->level << 8;
     word[1] = sort->begin;
     word[2] = sort->at;

@@ -16,34 +16,35 @@
 
 /* A third key beside the two criteria's: the class of s', by which the model of the class-level
  * process counts its transitions; RLVC_NO_CLASS where the episode terminated. */
-#define RLVC_KEY_SUCCESSOR 2u
+#define RLVC_TARGET_SUCCESSOR 2u
 
-typedef struct rlvc_aliasing {
-    rlvc_returns returns; /* the database, and the window for RLVC_CRITERION_RETURNS */
+typedef struct rlvc_target_input {
+    rlvc_return_input returns; /* the database, and the window for RLVC_CRITERION_RETURNS */
     const rlvc_values *values;
     float gap;    /* targets of one cluster are within this: 0 for returns, else 2 * tolerance */
-    uint8_t kind; /* RLVC_CRITERION_* or RLVC_KEY_SUCCESSOR */
-} rlvc_aliasing;
+    uint8_t kind; /* RLVC_CRITERION_* or RLVC_TARGET_SUCCESSOR */
+} rlvc_target_input;
 
 /* The key of one sample, in slices. */
-typedef struct rlvc_keyed {
-    rlvc_window window;
+typedef struct rlvc_target_cursor {
+    rlvc_return_cursor window;
     uint32_t key; /* the result ... */
     uint8_t defined;
     uint8_t done;
-} rlvc_keyed;
+} rlvc_target_cursor;
 
-void rlvc_keyed_begin(rlvc_keyed *keyed, uint32_t position);
+void rlvc_target_begin(rlvc_target_cursor *target, uint32_t position);
 
 /* Works out whether the slot at window.position is a sample, and its key.
- * @return the work, at most budget (>= 1): one unit, or that of rlvc_window_step for returns. */
-uint32_t rlvc_keyed_step(rlvc_keyed *keyed, const rlvc_aliasing *aliasing, uint32_t budget);
+ * @return the work, at most budget (>= 1): one unit, or that of rlvc_return_step for returns. */
+uint32_t rlvc_target_step(rlvc_target_cursor *target, const rlvc_target_input *input,
+                          uint32_t budget);
 
 /* Keys order as targets do. -0 and +0 have the same. O(1). */
-uint32_t rlvc_key_of_target(float target);
-float rlvc_target_of_key(uint32_t key);
+uint32_t rlvc_target_key(float target);
+float rlvc_target_of(uint32_t key);
 
 /* Do two keys, the lower of which is the lowest of its cluster, tell their samples apart? O(1). */
-int rlvc_aliasing_distinct(const rlvc_aliasing *aliasing, uint32_t lowest, uint32_t key);
+int rlvc_target_distinct(const rlvc_target_input *input, uint32_t lowest, uint32_t key);
 
 #endif

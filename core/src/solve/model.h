@@ -2,24 +2,23 @@
 /* The class-level decision process that the database shows (section 4.1), as a sparse table.
  *
  * For each pair (c, a): the mean reward, how often it was tried, and for each class c' that
- * followed, how often. The transitions lie in the sample array itself, which is free while the
- * values are solved for, so that the model takes no memory of its own: transition i is {key: c',
- * slot: count}, those of the pair p at [first[p], first[p + 1]). RLVC_NO_CLASS stands for c' where
- * the episode terminated.
+ * followed, how often. The transitions lie in the array of the samples (rows.h), which are not
+ * needed while the values are solved for. So the model takes no memory of its own. The transitions
+ * of the pair p are those at [begin.transition[p], begin.transition[p + 1]).
  *
- * A pair that has been tried, but whose interactions have all left the ring, has no transitions:
- * the batch solvers leave its Q as it was, so that what was learnt is not lost with what it was
- * learnt from. */
+ * A pair that has been tried, but whose interactions have all left the ring, has no transitions.
+ * The batch solvers leave its Q as it was, so that what was learnt is not lost. */
 #ifndef RLVC_SRC_MODEL_H
 #define RLVC_SRC_MODEL_H
 
 #include "../base/mean.h"
 #include "../samples/grouping.h"
+#include "../samples/rows.h"
 #include "../samples/sort.h"
 
-typedef struct rlvc_model {
-    rlvc_grouping grouping;
-    rlvc_sort sort;
+typedef struct rlvc_model_cursor {
+    rlvc_grouping_cursor grouping;
+    rlvc_sort_cursor sort;
     rlvc_sum sum;
     uint32_t pair;
     uint32_t at;    /* sample under work */
@@ -28,23 +27,23 @@ typedef struct rlvc_model {
     uint32_t packed; /* transitions written so far */
     uint8_t phase;
     uint8_t done;
-} rlvc_model;
+} rlvc_model_cursor;
 
-void rlvc_model_begin(rlvc_model *model, uint32_t pairs);
+void rlvc_model_begin(rlvc_model_cursor *model, uint32_t pairs);
 
-/* Works on the model for one budget. aliasing->kind is RLVC_KEY_SUCCESSOR.
+/* Works on the model for one budget. input->kind is RLVC_TARGET_SUCCESSOR.
  * @param scratch RLVC_SORT_SCRATCH_BYTES, aligned to 8, the model's until it is done
  * @return the work, at most budget (>= RLVC_BUDGET_MIN): that of the grouping and of sorting each
  * pair, and three units for each interaction. */
-uint32_t rlvc_model_step(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
-                         rlvc_sample *sample, void *scratch, uint32_t budget);
+uint32_t rlvc_model_step(rlvc_model_cursor *model, const rlvc_target_input *input,
+                         rlvc_values *values, rlvc_rows rows, void *scratch, uint32_t budget);
 
 /* Takes the smallest step that a cursor can stop after. Not to be called when done. */
-void rlvc_model_single(rlvc_model *model, const rlvc_aliasing *aliasing, rlvc_values *values,
-                       rlvc_sample *sample, void *scratch);
+void rlvc_model_single(rlvc_model_cursor *model, const rlvc_target_input *input,
+                       rlvc_values *values, rlvc_rows rows, void *scratch);
 
 /* How far the cursor has come, for a snapshot: the same only for the same state on the same
  * input. */
-void rlvc_model_mark(const rlvc_model *model, uint32_t word[8]);
+void rlvc_model_mark(const rlvc_model_cursor *model, uint32_t word[8]);
 
 #endif

@@ -2,15 +2,15 @@
 /* Q-learning and Sarsa: see td.h. */
 #include "td.h"
 
-static void add(rlvc_updates *updates, uint32_t class_id, uint32_t action, float target) {
-    rlvc_update *update = &updates->update[updates->count++];
+static void add(rlvc_td_updates *updates, uint32_t class_id, uint32_t action, float target) {
+    rlvc_td_update *update = &updates->update[updates->count++];
     update->class_id = class_id;
     update->action = action;
     update->target = target;
 }
 
 /* Sarsa's update for the interaction before this one, now that its a' is known. */
-static rlvc_status add_previous(rlvc_updates *updates, const rlvc_config *config,
+static rlvc_status add_previous(rlvc_td_updates *updates, const rlvc_config *config,
                                 const rlvc_domain *domain, const rlvc_tree *tree,
                                 const rlvc_replay *replay, float q_now) {
     if (replay->count < 2)
@@ -27,11 +27,10 @@ static rlvc_status add_previous(rlvc_updates *updates, const rlvc_config *config
     return status;
 }
 
-rlvc_status rlvc_incremental_prepare(rlvc_updates *updates, const rlvc_config *config,
-                                     const rlvc_domain *domain, const rlvc_tree *tree,
-                                     const rlvc_replay *replay, const rlvc_values *values,
-                                     rlvc_choice choice, float reward, const void *next,
-                                     uint8_t end) {
+rlvc_status rlvc_td_prepare(rlvc_td_updates *updates, const rlvc_config *config,
+                            const rlvc_domain *domain, const rlvc_tree *tree,
+                            const rlvc_replay *replay, const rlvc_values *values,
+                            rlvc_choice choice, float reward, const void *next, uint8_t end) {
     int sarsa = config->solver == RLVC_SOLVER_SARSA;
     uint32_t class_id = 0, next_class = 0;
     uint32_t slot = rlvc_replay_slot(replay, replay->count - 1);
@@ -54,9 +53,9 @@ rlvc_status rlvc_incremental_prepare(rlvc_updates *updates, const rlvc_config *c
     return RLVC_OK;
 }
 
-void rlvc_incremental_apply(const rlvc_updates *updates, float learning_rate, rlvc_values *values) {
+void rlvc_td_apply(const rlvc_td_updates *updates, float learning_rate, rlvc_values *values) {
     for (uint32_t i = 0; i < updates->count; i++) {
-        const rlvc_update *update = &updates->update[i];
+        const rlvc_td_update *update = &updates->update[i];
         size_t pair = rlvc_values_pair(values, update->class_id, update->action);
         values->q[pair] += learning_rate * (update->target - values->q[pair]);
         values->tried[pair] += values->tried[pair] < UINT32_MAX;

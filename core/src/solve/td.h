@@ -16,27 +16,26 @@
 
 /* What an observation is about to change in Q: made ready first, since classifying may fail, and
  * then carried out, which cannot. */
-typedef struct rlvc_update {
+typedef struct rlvc_td_update {
     uint32_t class_id;
     uint32_t action;
     float target;
-} rlvc_update;
+} rlvc_td_update;
 
-typedef struct rlvc_updates {
-    rlvc_update update[2];
+typedef struct rlvc_td_updates {
+    rlvc_td_update update[2];
     uint32_t count;
-} rlvc_updates;
+} rlvc_td_updates;
 
 /* Makes the updates for an interaction whose s is the current percept of the replay and that is not
  * stored yet. O(depth) calls of exhibits().
  * @return RLVC_OK; RLVC_E_CALLBACK. */
-rlvc_status rlvc_incremental_prepare(rlvc_updates *updates, const rlvc_config *config,
-                                     const rlvc_domain *domain, const rlvc_tree *tree,
-                                     const rlvc_replay *replay, const rlvc_values *values,
-                                     rlvc_choice choice, float reward, const void *next,
-                                     uint8_t end);
+rlvc_status rlvc_td_prepare(rlvc_td_updates *updates, const rlvc_config *config,
+                            const rlvc_domain *domain, const rlvc_tree *tree,
+                            const rlvc_replay *replay, const rlvc_values *values,
+                            rlvc_choice choice, float reward, const void *next, uint8_t end);
 
 /* Carries them out: Q, V and the policy of the classes concerned. O(actions). */
-void rlvc_incremental_apply(const rlvc_updates *updates, float learning_rate, rlvc_values *values);
+void rlvc_td_apply(const rlvc_td_updates *updates, float learning_rate, rlvc_values *values);
 
 #endif

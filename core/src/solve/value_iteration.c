@@ -12,7 +12,7 @@ enum { SWEEP, IMPROVE };
 
 #define HAS_IMPROVING RLVC_HAS_SOLVER(RLVC_SOLVER_POLICY_ITERATION)
 
-static void restart(rlvc_solver *solver, uint8_t phase) {
+static void restart(rlvc_solver_cursor *solver, uint8_t phase) {
     solver->phase = phase;
     solver->class_id = 0;
     solver->action = 0;
@@ -20,7 +20,7 @@ static void restart(rlvc_solver *solver, uint8_t phase) {
     rlvc_sum_clear(&solver->sum);
 }
 
-void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind) {
+void rlvc_solver_begin(rlvc_solver_cursor *solver, uint8_t kind) {
     const int improve = HAS_IMPROVING && kind == RLVC_SOLVER_POLICY_ITERATION;
     memset(solver, 0, sizeof *solver);
     solver->improve = (uint8_t)improve;
@@ -32,9 +32,9 @@ static float magnitude(float x) {
 }
 
 /* Has the sweep that ended settled V, as the head of value_iteration.h tells? */
-static int settled(const rlvc_solver *solver, const rlvc_solving *solving) {
-    float gamma = solving->discount;
-    float enough = solving->tolerance;
+static int settled(const rlvc_solver_cursor *solver, const rlvc_solver_input *input) {
+    float gamma = input->discount;
+    float enough = input->tolerance;
     float resolution = 4.0e-7f * solver->largest; /* of binary32: some 4 units in the last place */
     if (gamma > 0.0f && gamma < 1.0f)
         enough = enough * (1.0f - gamma) / gamma;
@@ -42,12 +42,12 @@ static int settled(const rlvc_solver *solver, const rlvc_solving *solving) {
 }
 
 /* Ends a sweep, or begins the next. */
-static void end_sweep(rlvc_solver *solver, const rlvc_solving *solving) {
+static void end_sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input) {
     const int improve = HAS_IMPROVING && solver->improve;
     solver->sweeps++;
-    if (solver->sweeps >= solving->max_sweeps || (settled(solver, solving) && !improve)) {
+    if (solver->sweeps >= input->max_sweeps || (settled(solver, input) && !improve)) {
         solver->done = 1;
-    } else if (improve && settled(solver, solving)) {
+    } else if (improve && settled(solver, input)) {
         solver->changed = 0;
         restart(solver, IMPROVE);
     } else {
@@ -58,7 +58,8 @@ static void end_sweep(rlvc_solver *solver, const rlvc_solving *solving) {
 }
 
 /* V(c), once every Q(c, a) of the class is there. */
-static void back_up(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
+static void back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                    rlvc_values *values) {
     uint32_t c = solver->class_id;
     float before = values->value[c];
     float after = rlvc_values_best(values, c);
@@ -71,20 +72,20 @@ static void back_up(rlvc_solver *solver, const rlvc_solving *solving, rlvc_value
     solver->largest = magnitude(after) > solver->largest ? magnitude(after) : solver->largest;
     solver->action = 0;
     solver->residual = change > solver->residual ? change : solver->residual;
-    if (++solver->class_id == solving->classes)
-        end_sweep(solver, solving);
+    if (++solver->class_id == input->classes)
+        end_sweep(solver, input);
 }
 
 /* Adds the values of up to `budget` of the pair's transitions that are left. */
-static uint32_t add_transitions(rlvc_solver *solver, const rlvc_solving *solving,
+static uint32_t add_transitions(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                                 const rlvc_values *values, uint32_t end, uint32_t budget) {
     rlvc_sum sum = solver->sum;
     uint32_t from = solver->transition;
     uint32_t to = end - from < budget ? end : from + budget;
     for (uint32_t i = from; i < to; i++) {
-        uint32_t next = solving->transition[i].key; /* nothing is to be had after the end */
+        uint32_t next = input->transition[i].next; /* nothing is to be had after the end */
         rlvc_sum_add(&sum, next == RLVC_NO_CLASS ? 0.0f : values->value[next],
-                     solving->transition[i].slot);
+                     input->transition[i].count);
     }
     solver->sum = sum;
     solver->transition = to;
@@ -92,34 +93,35 @@ static uint32_t add_transitions(rlvc_solver *solver, const rlvc_solving *solving
 }
 
 /* Part of a sweep: adds transitions, or completes a pair. */
-static uint32_t sweep(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
-                      uint32_t budget) {
+static uint32_t sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                      rlvc_values *values, uint32_t budget) {
     size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
-    if (solver->transition < values->first[pair + 1u])
-        return add_transitions(solver, solving, values, values->first[pair + 1u], budget);
-    if (values->first[pair] < values->first[pair + 1u])
-        values->q[pair] = values->reward[pair] + solving->discount * rlvc_sum_mean(&solver->sum);
+    if (solver->transition < values->begin.transition[pair + 1u])
+        return add_transitions(solver, input, values, values->begin.transition[pair + 1u], budget);
+    if (values->begin.transition[pair] < values->begin.transition[pair + 1u])
+        values->q[pair] = values->pair.reward[pair] + input->discount * rlvc_sum_mean(&solver->sum);
     else if (values->tried[pair] == 0)
         values->q[pair] = 0.0f;
     rlvc_sum_clear(&solver->sum);
     if (++solver->action == values->actions)
-        back_up(solver, solving, values);
+        back_up(solver, input, values);
     return 1;
 }
 
 /* Makes the policy of one class greedy. An action must be better than the present one by more than
  * what the values are uncertain by, or two that are equally good could take turns for ever. */
-static void improve(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values) {
+static void improve(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                    rlvc_values *values) {
     uint32_t c = solver->class_id;
     uint32_t greedy = rlvc_values_greedy(values, c);
     size_t now = rlvc_values_pair(values, c, values->trial[c]);
     float better = values->q[rlvc_values_pair(values, c, greedy)] - values->q[now];
     int first_time = solver->sweeps == 0 || !rlvc_values_counts(values, now);
-    if (greedy != values->trial[c] && (first_time || better > solving->tolerance)) {
+    if (greedy != values->trial[c] && (first_time || better > input->tolerance)) {
         values->trial[c] = (uint8_t)greedy;
         solver->changed = 1;
     }
-    if (++solver->class_id < solving->classes)
+    if (++solver->class_id < input->classes)
         return;
     if (solver->changed || solver->sweeps == 0)
         restart(solver, SWEEP);
@@ -130,23 +132,23 @@ static void improve(rlvc_solver *solver, const rlvc_solving *solving, rlvc_value
 }
 
 /* Works on the phase; returns the work. */
-static uint32_t step_phase(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
-                           uint32_t budget) {
+static uint32_t step_phase(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                           rlvc_values *values, uint32_t budget) {
     if (!HAS_IMPROVING || solver->phase == SWEEP)
-        return sweep(solver, solving, values, budget);
-    improve(solver, solving, values);
+        return sweep(solver, input, values, budget);
+    improve(solver, input, values);
     return 1;
 }
 
-uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
-                          uint32_t budget) {
+uint32_t rlvc_solver_step(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                          rlvc_values *values, uint32_t budget) {
     uint32_t used = 0;
     while (used < budget && !solver->done)
-        used += step_phase(solver, solving, values, budget - used);
+        used += step_phase(solver, input, values, budget - used);
     return used;
 }
 
-void rlvc_solver_mark(const rlvc_solver *solver, uint32_t word[10]) {
+void rlvc_solver_mark(const rlvc_solver_cursor *solver, uint32_t word[10]) {
     word[0] = solver->phase | (uint32_t)solver->changed << 8;
     word[1] = solver->class_id;
     word[2] = solver->action;
@@ -160,18 +162,18 @@ void rlvc_solver_mark(const rlvc_solver *solver, uint32_t word[10]) {
 }
 
 /* Is the cursor that words gave within the model? */
-static int is_within(const rlvc_solver *solver, const rlvc_solving *solving,
+static int is_within(const rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                      const rlvc_values *values) {
-    if (solver->class_id >= solving->classes || solver->action >= values->actions ||
-        solver->sweeps >= solving->max_sweeps)
+    if (solver->class_id >= input->classes || solver->action >= values->actions ||
+        solver->sweeps >= input->max_sweeps)
         return 0;
     size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
-    return solver->phase != SWEEP || (solver->transition >= values->first[pair] &&
-                                      solver->transition <= values->first[pair + 1u]);
+    return solver->phase != SWEEP || (solver->transition >= values->begin.transition[pair] &&
+                                      solver->transition <= values->begin.transition[pair + 1u]);
 }
 
-int rlvc_solver_restore(rlvc_solver *solver, const rlvc_solving *solving, const rlvc_values *values,
-                        const uint32_t word[10]) {
+int rlvc_solver_restore(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                        const rlvc_values *values, const uint32_t word[10]) {
     solver->phase = (uint8_t)(word[0] & 255u);
     solver->changed = (uint8_t)(word[0] >> 8);
     solver->class_id = word[1];
@@ -188,5 +190,5 @@ int rlvc_solver_restore(rlvc_solver *solver, const rlvc_solving *solving, const 
             return 0;
     }
     return solver->phase <= solver->improve && solver->changed <= solver->improve &&
-           word[0] >> 16 == 0 && is_within(solver, solving, values);
+           word[0] >> 16 == 0 && is_within(solver, input, values);
 }

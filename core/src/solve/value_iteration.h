@@ -17,9 +17,9 @@
 
 #include "../base/mean.h"
 #include "../tree/values.h"
-#include "rlvc/domain.h"
+#include "../samples/rows.h"
 
-typedef struct rlvc_solver {
+typedef struct rlvc_solver_cursor {
     rlvc_sum sum;
     float residual; /* max |V_new - V_old| so far in this sweep; at the end, of the last sweep */
     float largest;  /* max |V| likewise */
@@ -31,30 +31,30 @@ typedef struct rlvc_solver {
     uint8_t changed; /* the policy, in this improvement */
     uint8_t phase;
     uint8_t done;
-} rlvc_solver;
+} rlvc_solver_cursor;
 
 /* What does not change during a solution. */
-typedef struct rlvc_solving {
-    const rlvc_sample *transition; /* the model's: see model.h */
+typedef struct rlvc_solver_input {
+    const rlvc_transition *transition; /* the model's: see model.h */
     uint32_t classes;
     uint32_t max_sweeps;
     float discount;
     float tolerance;
-} rlvc_solving;
+} rlvc_solver_input;
 
-void rlvc_solver_begin(rlvc_solver *solver, uint8_t kind);
+void rlvc_solver_begin(rlvc_solver_cursor *solver, uint8_t kind);
 
 /* @return the work, at most budget (>= 1): a unit for each transition and each pair, in each sweep.
  */
-uint32_t rlvc_solver_step(rlvc_solver *solver, const rlvc_solving *solving, rlvc_values *values,
-                          uint32_t budget);
+uint32_t rlvc_solver_step(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                          rlvc_values *values, uint32_t budget);
 
 /* The cursor as words, for a snapshot. */
-void rlvc_solver_mark(const rlvc_solver *solver, uint32_t word[10]);
+void rlvc_solver_mark(const rlvc_solver_cursor *solver, uint32_t word[10]);
 
 /* Puts a cursor that has just begun where such words, which need not be trusted, say.
  * @return 0 if it cannot be there. O(1). */
-int rlvc_solver_restore(rlvc_solver *solver, const rlvc_solving *solving, const rlvc_values *values,
-                        const uint32_t word[10]);
+int rlvc_solver_restore(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                        const rlvc_values *values, const uint32_t word[10]);
 
 #endif

@@ -54,28 +54,28 @@ enum { COUNT, PROBE, CHUNK, BLOCK, BITS, RANK };
 
 #define LN_2 0.693147181f
 
-static uint32_t words_of(const rlvc_scan *scan) {
+static uint32_t words_of(const rlvc_cutpoint_cursor *scan) {
     return (scan->count + 63u) / 64u;
 }
 
-static uint32_t chunk_words(const rlvc_scan *scan) {
-    const uint32_t unit = RLVC_SCAN_CHUNKS * BLOCK_WORDS;
+static uint32_t chunk_words(const rlvc_cutpoint_cursor *scan) {
+    const uint32_t unit = RLVC_CUTPOINT_CHUNKS * BLOCK_WORDS;
     return (words_of(scan) + unit - 1u) / unit * BLOCK_WORDS;
 }
 
-static uint32_t least(uint32_t a, uint32_t b) {
+static uint32_t smaller(uint32_t a, uint32_t b) {
     return a < b ? a : b;
 }
 
 /* The score of the point (x, y). */
-static float score_at(const rlvc_scan *scan, uint32_t x, uint32_t y) {
+static float score_at(const rlvc_cutpoint_cursor *scan, uint32_t x, uint32_t y) {
     uint32_t all_present = scan->best.present;
     uint32_t all_absent = scan->count - all_present;
     return rlvc_score(x, y, all_present - x, all_absent - y);
 }
 
 /* Sets the bar, and what the cheap bounds compare n^2 with. */
-static void set_bar(rlvc_scan *scan, float bar) {
+static void set_bar(rlvc_cutpoint_cursor *scan, float bar) {
     float present = (float)scan->best.present;
     float absent = (float)(scan->count - scan->best.present);
     float lowered = bar * (1.0f - MARGIN) * present * absent;
@@ -85,13 +85,14 @@ static void set_bar(rlvc_scan *scan, float bar) {
 }
 
 /* n = x B - y A. */
-static int64_t deviation(const rlvc_scan *scan, uint32_t x, uint32_t y) {
+static int64_t deviation(const rlvc_cutpoint_cursor *scan, uint32_t x, uint32_t y) {
     int64_t present = scan->best.present;
     return x * ((int64_t)scan->count - present) - y * present;
 }
 
 /* Whether (x, y), where n is as given, is surely not above the bar, by the cheap bound. */
-static inline int surely_below(const rlvc_scan *scan, int64_t n, uint32_t x, uint32_t y) {
+static inline int surely_below(const rlvc_cutpoint_cursor *scan, int64_t n, uint32_t x,
+                               uint32_t y) {
     float size = (float)n;
     float square = size * size;
     uint32_t below = x + y;
@@ -102,12 +103,12 @@ static inline int surely_below(const rlvc_scan *scan, int64_t n, uint32_t x, uin
     if (square > scan->narrow * rows)
         return 0;
     uint32_t present = scan->best.present;
-    int64_t smallest = (int64_t)least(below, above) * least(present, scan->count - present);
+    int64_t smallest = (int64_t)smaller(below, above) * smaller(present, scan->count - present);
     return 4 * (n < 0 ? -n : n) <= smallest;
 }
 
 /* Keeps the cutpoint at `below`, x samples with the feature below it, if it is the best so far. */
-static void consider(rlvc_scan *scan, uint32_t below, uint32_t x) {
+static void consider(rlvc_cutpoint_cursor *scan, uint32_t below, uint32_t x) {
     float score = score_at(scan, x, below - x);
     if (score > scan->bar || (score == scan->bar && below < scan->best.below)) {
         scan->best.score = score;
@@ -117,11 +118,11 @@ static void consider(rlvc_scan *scan, uint32_t below, uint32_t x) {
     }
 }
 
-void rlvc_scan_begin(rlvc_scan *scan, const uint64_t *column, const uint64_t *cuts, uint32_t count,
-                     uint8_t by_ranks, float beat) {
+void rlvc_cutpoint_begin(rlvc_cutpoint_cursor *scan, const uint64_t *column, const uint64_t *cuts,
+                         uint32_t count, uint8_t by_ranks, float beat) {
     RLVC_ASSERT(count >= 1u && count <= INT32_MAX);
     RLVC_ASSERT((cuts[0] & 1u) == 0);
-    const rlvc_scan fresh = {.best = {.score = -1.0f}, .phase = COUNT};
+    const rlvc_cutpoint_cursor fresh = {.best = {.score = -1.0f}, .phase = COUNT};
     *scan = fresh;
     scan->by_ranks = by_ranks;
     scan->count = count;
@@ -131,18 +132,18 @@ void rlvc_scan_begin(rlvc_scan *scan, const uint64_t *column, const uint64_t *cu
 }
 
 /* Counts the words that `budget` allows, up to the end of the chunk. */
-static uint32_t count_step(rlvc_scan *scan, uint32_t budget) {
+static uint32_t count_step(rlvc_cutpoint_cursor *scan, uint32_t budget) {
     uint32_t words = words_of(scan);
     uint32_t chunk = scan->word / chunk_words(scan);
     uint32_t begin = scan->word;
-    uint32_t end = least(words, (chunk + 1u) * chunk_words(scan));
-    if (end - begin > budget / RLVC_SCAN_WORD_UNITS)
-        end = begin + budget / RLVC_SCAN_WORD_UNITS;
+    uint32_t end = smaller(words, (chunk + 1u) * chunk_words(scan));
+    if (end - begin > budget / RLVC_CUTPOINT_WORD_UNITS)
+        end = begin + budget / RLVC_CUTPOINT_WORD_UNITS;
     uint32_t present = 0;
     uint32_t word = begin;
     for (; end - word >= BLOCK_WORDS; word += BLOCK_WORDS)
-        present += rlvc_ones(scan->column + word, BLOCK_WORDS);
-    present += rlvc_ones(scan->column + word, end - word);
+        present += rlvc_popcount(scan->column + word, BLOCK_WORDS);
+    present += rlvc_popcount(scan->column + word, end - word);
     scan->chunk_present[chunk] += present;
     scan->best.present += present;
     scan->word = end;
@@ -152,24 +153,24 @@ static uint32_t count_step(rlvc_scan *scan, uint32_t budget) {
         scan->done = scan->best.present == 0 || scan->best.present == scan->count;
         set_bar(scan, scan->bar);
     }
-    return (end - begin) * RLVC_SCAN_WORD_UNITS;
+    return (end - begin) * RLVC_CUTPOINT_WORD_UNITS;
 }
 
 /* Scores the first cutpoint, if any, of the word that ends the chunk. */
-static uint32_t probe_step(rlvc_scan *scan) {
+static uint32_t probe_step(rlvc_cutpoint_cursor *scan) {
     uint32_t words = words_of(scan);
     uint32_t chunk = scan->word / chunk_words(scan);
-    uint32_t end = least(words, scan->word + chunk_words(scan));
+    uint32_t end = smaller(words, scan->word + chunk_words(scan));
     uint64_t column = scan->column[end - 1u];
     uint64_t cuts = scan->cuts[end - 1u];
-    uint32_t work = 2u * RLVC_SCAN_WORD_UNITS;
+    uint32_t work = 2u * RLVC_CUTPOINT_WORD_UNITS;
     scan->present += scan->chunk_present[chunk];
     if (cuts != 0) {
         uint64_t before = (cuts & (0u - cuts)) - 1u;
         uint64_t after = column & ~before;
-        uint32_t below = (end - 1u) * 64u + rlvc_ones(&before, 1);
-        consider(scan, below, scan->present - rlvc_ones(&after, 1));
-        work += RLVC_SCAN_SCORE_UNITS;
+        uint32_t below = (end - 1u) * 64u + rlvc_popcount(&before, 1);
+        consider(scan, below, scan->present - rlvc_popcount(&after, 1));
+        work += RLVC_CUTPOINT_SCORE_UNITS;
     }
     scan->word = end;
     if (end == words) {
@@ -189,7 +190,7 @@ static int no_cuts(const uint64_t *cuts, uint32_t words) {
 }
 
 /* Moves on to a word, with `present` more samples of the feature behind. */
-static void move_to(rlvc_scan *scan, uint32_t word, uint32_t present) {
+static void move_to(rlvc_cutpoint_cursor *scan, uint32_t word, uint32_t present) {
     scan->word = word;
     scan->present += present;
     scan->phase = word % chunk_words(scan) == 0 ? CHUNK : BLOCK;
@@ -198,9 +199,10 @@ static void move_to(rlvc_scan *scan, uint32_t word, uint32_t present) {
 
 /* Whether no cutpoint in the words up to `end`, `present` samples in which exhibit the feature, is
  * above the bar. Adds to *work. */
-static int holds_nothing(const rlvc_scan *scan, uint32_t end, uint32_t present, uint32_t *work) {
+static int holds_nothing(const rlvc_cutpoint_cursor *scan, uint32_t end, uint32_t present,
+                         uint32_t *work) {
     const uint32_t words = end - scan->word;
-    const uint32_t samples = least(scan->count, end * 64u) - scan->word * 64u;
+    const uint32_t samples = smaller(scan->count, end * 64u) - scan->word * 64u;
     const uint32_t x0 = scan->present;
     const uint32_t y0 = scan->word * 64u - x0;
     const uint32_t x1 = x0 + present;
@@ -210,26 +212,26 @@ static int holds_nothing(const rlvc_scan *scan, uint32_t end, uint32_t present, 
     const int right_open = right > 0 && !surely_below(scan, right, x1, y0);
     const int left_open = left < 0 && !surely_below(scan, left, x0, y1);
     const float limit = scan->bar * (1.0f - MARGIN);
-    *work += 2u * RLVC_SCAN_BOUND_UNITS;
+    *work += 2u * RLVC_CUTPOINT_BOUND_UNITS;
     if (!right_open && !left_open)
         return 1;
     if (words <= BLOCK_WORDS && no_cuts(scan->cuts + scan->word, words))
         return 1;
     if (right_open) {
-        *work += RLVC_SCAN_SCORE_UNITS;
+        *work += RLVC_CUTPOINT_SCORE_UNITS;
         if (score_at(scan, x1, y0) > limit)
             return 0;
     }
     if (left_open) {
-        *work += RLVC_SCAN_SCORE_UNITS;
+        *work += RLVC_CUTPOINT_SCORE_UNITS;
         return score_at(scan, x0, y1) <= limit;
     }
     return 1;
 }
 
-static uint32_t chunk_step(rlvc_scan *scan) {
+static uint32_t chunk_step(rlvc_cutpoint_cursor *scan) {
     uint32_t present = scan->chunk_present[scan->word / chunk_words(scan)];
-    uint32_t end = least(words_of(scan), scan->word + chunk_words(scan));
+    uint32_t end = smaller(words_of(scan), scan->word + chunk_words(scan));
     uint32_t work = 0;
     if (holds_nothing(scan, end, present, &work))
         move_to(scan, end, present);
@@ -238,12 +240,12 @@ static uint32_t chunk_step(rlvc_scan *scan) {
     return work;
 }
 
-static uint32_t block_step(rlvc_scan *scan) {
+static uint32_t block_step(rlvc_cutpoint_cursor *scan) {
     uint32_t size = 1u << scan->level;
-    uint32_t end = least(words_of(scan), scan->word + size);
+    uint32_t end = smaller(words_of(scan), scan->word + size);
     uint32_t words = end - scan->word;
-    uint32_t present = rlvc_ones(scan->column + scan->word, words);
-    uint32_t work = words * RLVC_SCAN_WORD_UNITS;
+    uint32_t present = rlvc_popcount(scan->column + scan->word, words);
+    uint32_t work = words * RLVC_CUTPOINT_WORD_UNITS;
     if (holds_nothing(scan, end, present, &work)) {
         move_to(scan, end, present);
         if (scan->level < BLOCK_LEVEL && end % (2u * size) == 0)
@@ -258,12 +260,12 @@ static uint32_t block_step(rlvc_scan *scan) {
 }
 
 /* Looks at the next cutpoint of a word. */
-static uint32_t bits_step(rlvc_scan *scan) {
+static uint32_t bits_step(rlvc_cutpoint_cursor *scan) {
     uint64_t column = scan->column[scan->word];
     uint64_t cuts = scan->cuts[scan->word];
     uint32_t x = scan->present;
     uint32_t bit = scan->bit;
-    uint32_t work = RLVC_SCAN_BOUND_UNITS;
+    uint32_t work = RLVC_CUTPOINT_BOUND_UNITS;
     while (bit < 64u && (cuts >> bit & 1u) == 0) {
         x += (uint32_t)(column >> bit & 1u);
         bit++;
@@ -273,7 +275,7 @@ static uint32_t bits_step(rlvc_scan *scan) {
         uint32_t below = scan->word * 64u + bit;
         if (!surely_below(scan, deviation(scan, x, below - x), x, below - x)) {
             consider(scan, below, x);
-            work += RLVC_SCAN_SCORE_UNITS;
+            work += RLVC_CUTPOINT_SCORE_UNITS;
         }
         scan->present = x + (uint32_t)(column >> bit & 1u);
         bit++;
@@ -285,21 +287,21 @@ static uint32_t bits_step(rlvc_scan *scan) {
 }
 
 /* Adds a word to the sums of ranks; the last makes the statistic. */
-static uint32_t rank_step(rlvc_scan *scan) {
+static uint32_t rank_step(rlvc_cutpoint_cursor *scan) {
     uint32_t at = scan->word * 64u;
     uint64_t column = scan->column[scan->word];
     uint64_t cuts = scan->cuts[scan->word];
-    rlvc_ranks_add(&scan->ranks, at, (uint32_t)column, (uint32_t)cuts);
-    rlvc_ranks_add(&scan->ranks, at + 32u, (uint32_t)(column >> 32), (uint32_t)(cuts >> 32));
+    rlvc_rank_sum_add(&scan->ranks, at, (uint32_t)column, (uint32_t)cuts);
+    rlvc_rank_sum_add(&scan->ranks, at + 32u, (uint32_t)(column >> 32), (uint32_t)(cuts >> 32));
     scan->word++;
     if (scan->word == words_of(scan)) {
-        scan->best.score = rlvc_ranks_statistic(&scan->ranks, scan->best.present, scan->count);
+        scan->best.score = rlvc_rank_sum_statistic(&scan->ranks, scan->best.present, scan->count);
         scan->done = 1;
     }
-    return cuts != 0 ? RLVC_SCAN_SCORE_UNITS : RLVC_SCAN_WORD_UNITS;
+    return cuts != 0 ? RLVC_CUTPOINT_SCORE_UNITS : RLVC_CUTPOINT_WORD_UNITS;
 }
 
-uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget) {
+uint32_t rlvc_cutpoint_step(rlvc_cutpoint_cursor *scan, uint32_t budget) {
     uint32_t left = budget;
     RLVC_ASSERT(budget >= RLVC_BUDGET_MIN);
     while (!scan->done && left >= ACTION_MAX)
@@ -318,14 +320,14 @@ uint32_t rlvc_scan_step(rlvc_scan *scan, uint32_t budget) {
     return budget - left;
 }
 
-void rlvc_scan_single(rlvc_scan *scan) {
+void rlvc_cutpoint_single(rlvc_cutpoint_cursor *scan) {
     if (scan->phase == COUNT)
-        (void)count_step(scan, RLVC_SCAN_WORD_UNITS);
+        (void)count_step(scan, RLVC_CUTPOINT_WORD_UNITS);
     else
-        (void)rlvc_scan_step(scan, ACTION_MAX); /* one action, as each costs something */
+        (void)rlvc_cutpoint_step(scan, ACTION_MAX); /* one action, as each costs something */
 }
 
-void rlvc_scan_mark(const rlvc_scan *scan, uint32_t word[3]) {
+void rlvc_cutpoint_mark(const rlvc_cutpoint_cursor *scan, uint32_t word[3]) {
     word[0] = scan->phase | (uint32_t)scan->level << 8;
     word[1] = scan->word;
     word[2] = scan->bit;

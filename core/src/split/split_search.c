@@ -5,7 +5,7 @@
  * at a time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned
  * (SCAN); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
  * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the
- * winners get their p-values (TEST_ALONE, TEST_TOGETHER). */
+ * winners get their p-values (TEST_PER_ACTION, TEST_POOLED). */
 #include "split_search.h"
 
 #include "../base/float_math.h"
@@ -22,8 +22,8 @@ enum {
     CLOSE,
     ASK,
     ANSWER,
-    TEST_ALONE,
-    TEST_TOGETHER,
+    TEST_PER_ACTION,
+    TEST_POOLED,
     DONE = 12 /* a snapshot may hold it; 10 and 11 are not in use */
 };
 
@@ -35,12 +35,12 @@ void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_c
     uint64_t columns = (words | 1u) * config->features_at_once * sizeof *space->columns;
     if (columns < RLVC_SORT_SCRATCH_BYTES)
         columns = RLVC_SORT_SCRATCH_BYTES;
-    space->sample = rlvc_arena_carve(arena, slots, sizeof *space->sample);
-    space->cuts = rlvc_arena_carve(arena, words, sizeof *space->cuts);
+    space->rows.sample = rlvc_arena_carve(arena, slots, sizeof *space->rows.sample);
+    space->bits.cutpoints = rlvc_arena_carve(arena, words, sizeof *space->bits.cutpoints);
     space->columns = rlvc_arena_carve(arena, 1, columns);
     space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
-    space->alone = rlvc_arena_carve(arena, 1, feature_bytes);
-    space->together = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->per_action = rlvc_arena_carve(arena, 1, feature_bytes);
+    space->pooled = rlvc_arena_carve(arena, 1, feature_bytes);
     space->group = rlvc_arena_carve(arena, config->actions, sizeof *space->group);
     space->pool = rlvc_arena_carve(arena, config->features_at_once, sizeof *space->pool);
     space->feature_bytes = feature_bytes;
@@ -48,7 +48,7 @@ void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_c
     space->actions = config->actions;
 }
 
-static void enter(rlvc_search *search, uint8_t phase) {
+static void enter(rlvc_split_cursor *search, uint8_t phase) {
     search->phase = phase;
     search->at = 0;
     search->done = phase == DONE;
@@ -59,27 +59,28 @@ static uint32_t size_of(const rlvc_group *group) {
 }
 
 /* The group at work as the domain's oracle sees it. */
-static rlvc_samples view_of(const rlvc_search *search, const rlvc_group *group) {
+static rlvc_samples view_of(const rlvc_split_cursor *search, const rlvc_group *group) {
     rlvc_samples view = search->view;
     view.sample += group->begin;
     view.count = size_of(group);
     return view;
 }
 
-static void open_sort(rlvc_search *search, const rlvc_workspace *space) {
+static void open_sort(rlvc_split_cursor *search, const rlvc_workspace *space) {
     const rlvc_group *group = &space->group[search->action];
-    rlvc_sample *sample = space->sample + (search->view.sample - space->sample) + group->begin;
+    rlvc_sample *sample =
+        space->rows.sample + (search->view.sample - space->rows.sample) + group->begin;
     rlvc_sort_begin(&search->inner.sort, sample, size_of(group), space->columns);
     enter(search, SORT);
 }
 
-uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *first,
-                             rlvc_samples *view) {
-    const rlvc_workspace *space = searching->space;
+uint32_t rlvc_split_input_open(const rlvc_split_input *input, const uint32_t *first,
+                               rlvc_samples *view) {
+    const rlvc_workspace *space = input->space;
     uint32_t words = 0;
-    view->percepts = searching->replay->percept;
-    view->percept_bytes = searching->replay->percept_bytes;
-    view->sample = space->sample + first[0];
+    view->percepts = input->replay->percept;
+    view->percept_bytes = input->replay->percept_bytes;
+    view->sample = space->rows.sample + first[0];
     view->count = first[space->actions] - first[0];
     for (uint32_t a = 0; a < space->actions; a++) {
         rlvc_group *group = &space->group[a];
@@ -92,10 +93,10 @@ uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *fi
     return words;
 }
 
-rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_samples *view,
-                                   uint32_t first, uint32_t *written) {
-    const rlvc_workspace *space = searching->space;
-    const rlvc_domain *domain = searching->domain;
+rlvc_status rlvc_split_input_propose(const rlvc_split_input *input, const rlvc_samples *view,
+                                     uint32_t first, uint32_t *written) {
+    const rlvc_workspace *space = input->space;
+    const rlvc_domain *domain = input->domain;
     *written = 0;
     return domain->candidates(domain->ctx, view, first, space->features_at_once, space->features,
                               written) == 0 &&
@@ -104,22 +105,22 @@ rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_s
                : RLVC_E_CALLBACK;
 }
 
-rlvc_status rlvc_searching_look(const rlvc_searching *searching, uint32_t slot, const void *feature,
-                                uint8_t *present) {
-    const rlvc_domain *domain = searching->domain;
+rlvc_status rlvc_split_input_exhibits(const rlvc_split_input *input, uint32_t slot,
+                                      const void *feature, uint8_t *present) {
+    const rlvc_domain *domain = input->domain;
     *present = 0;
-    return domain->exhibits(domain->ctx, rlvc_replay_percept(searching->replay, slot), feature,
+    return domain->exhibits(domain->ctx, rlvc_replay_percept(input->replay, slot), feature,
                             present) == 0
                ? RLVC_OK
                : RLVC_E_CALLBACK;
 }
 
-void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching,
-                       const uint32_t *first) {
-    const rlvc_workspace *space = searching->space;
+void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *input,
+                             const uint32_t *first) {
+    const rlvc_workspace *space = input->space;
     memset(search, 0, sizeof *search);
-    search->words = rlvc_searching_open(searching, first, &search->view);
-    if (search->view.count < searching->min_samples)
+    search->words = rlvc_split_input_open(input, first, &search->view);
+    if (search->view.count < input->min_samples)
         enter(search, DONE);
     else
         open_sort(search, space);
@@ -128,34 +129,34 @@ void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching,
 /* ------------------------------------------------------------------ cutpoints */
 
 /* After all groups are marked: begins to look for features, if anything could be told apart. */
-static void end_marking(rlvc_search *search, const rlvc_searching *searching) {
+static void end_marking(rlvc_split_cursor *search, const rlvc_split_input *input) {
     search->action = 0;
-    if (search->groups == 0 || search->samples < searching->min_samples)
+    if (search->groups == 0 || search->samples < input->min_samples)
         enter(search, DONE);
     else
-        enter(search, searching->domain->oracle ? ASK : PROPOSE);
+        enter(search, input->domain->oracle ? ASK : PROPOSE);
 }
 
 /* Goes on to the next group. */
-static void close_group(rlvc_search *search, const rlvc_searching *searching) {
-    rlvc_group *group = &searching->space->group[search->action];
-    if (searching->by_ranks && group->cuts > 0)
+static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    rlvc_group *group = &input->space->group[search->action];
+    if (input->by_ranks && group->cuts > 0)
         group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
     search->groups += group->cuts > 0;
     search->samples += group->cuts > 0 ? size_of(group) : 0;
     search->cuts += group->cuts;
-    if (++search->action == searching->space->actions)
-        end_marking(search, searching);
+    if (++search->action == input->space->actions)
+        end_marking(search, input);
     else
-        open_sort(search, searching->space);
+        open_sort(search, input->space);
 }
 
 /* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered
  * into clusters from the lowest up as targets.h tells them apart. */
-static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint32_t budget) {
-    rlvc_group *group = &searching->space->group[search->action];
+static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, uint32_t budget) {
+    rlvc_group *group = &input->space->group[search->action];
     const rlvc_sample *sample = search->view.sample + group->begin;
-    uint64_t *cuts = searching->space->cuts + group->word;
+    uint64_t *cuts = input->space->bits.cutpoints + group->word;
     uint32_t from = search->at, left = size_of(group) - from;
     uint32_t to = from + (left < budget ? left : budget);
     for (uint32_t at = from; at < to; at++) {
@@ -163,7 +164,7 @@ static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint3
             cuts[at / 64u] = 0;
         if (at == 0) {
             search->lowest = sample[at].key;
-        } else if (rlvc_aliasing_distinct(searching->aliasing, search->lowest, sample[at].key)) {
+        } else if (rlvc_target_distinct(input->aliasing, search->lowest, sample[at].key)) {
             cuts[at / 64u] |= (uint64_t)1 << at % 64u;
             group->cuts++;
             search->lowest = sample[at].key;
@@ -171,7 +172,7 @@ static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint3
     }
     search->at = to;
     if (to == size_of(group))
-        close_group(search, searching);
+        close_group(search, input);
     return to - from;
 }
 
@@ -179,7 +180,7 @@ static uint32_t mark(rlvc_search *search, const rlvc_searching *searching, uint3
 
 /* Goes to the first group from search->action on that takes part; at the end, to the phase
  * `then`. */
-static void next_group(rlvc_search *search, const rlvc_workspace *space, uint8_t phase,
+static void next_group(rlvc_split_cursor *search, const rlvc_workspace *space, uint8_t phase,
                        uint8_t then) {
     while (search->action < space->actions && space->group[search->action].cuts == 0)
         search->action++;
@@ -188,11 +189,11 @@ static void next_group(rlvc_search *search, const rlvc_workspace *space, uint8_t
 }
 
 /* Asks for the next block of candidates. */
-static rlvc_status propose(rlvc_search *search, const rlvc_searching *searching) {
-    static const rlvc_pool nothing = {0.0f, 0.0f, 0.0f, 0};
-    const rlvc_workspace *space = searching->space;
+static rlvc_status propose(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    static const rlvc_pooled nothing = {0.0f, 0.0f, 0.0f, 0};
+    const rlvc_workspace *space = input->space;
     uint32_t written;
-    rlvc_status status = rlvc_searching_propose(searching, &search->view, search->first, &written);
+    rlvc_status status = rlvc_split_input_propose(input, &search->view, search->first, &written);
     if (status != RLVC_OK)
         return status;
     search->block = written;
@@ -200,24 +201,24 @@ static rlvc_status propose(rlvc_search *search, const rlvc_searching *searching)
     for (uint32_t j = 0; j < written; j++)
         space->pool[j] = nothing;
     if (written == 0)
-        enter(search, TEST_ALONE);
+        enter(search, TEST_PER_ACTION);
     else
         next_group(search, space, DETECT, DONE);
     return RLVC_OK;
 }
 
 /* 64 samples and the whole block by the domain's batch detector. */
-static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searching,
+static rlvc_status detect_batch(rlvc_split_cursor *search, const rlvc_split_input *input,
                                 const rlvc_group *group, uint32_t *used) {
     uint64_t bits[RLVC_DETECT_FEATURES];
-    const rlvc_domain *domain = searching->domain;
+    const rlvc_domain *domain = input->domain;
     uint32_t left = size_of(group) - search->at;
     uint32_t n = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
     if (domain->detect(domain->ctx, &search->view, group->begin + search->at, n,
-                       searching->space->features, search->block, bits) != 0)
+                       input->space->features, search->block, bits) != 0)
         return RLVC_E_CALLBACK;
     for (uint32_t j = 0; j < search->block; j++) {
-        uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
+        uint64_t *column = rlvc_workspace_column(input->space, search->words, j);
         column[group->word + search->at / 64u] = bits[j];
     }
     search->at += n;
@@ -226,16 +227,16 @@ static rlvc_status detect_batch(rlvc_search *search, const rlvc_searching *searc
 }
 
 /* One sample and the whole block by the feature detector. */
-static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *searching,
+static rlvc_status detect_each(rlvc_split_cursor *search, const rlvc_split_input *input,
                                const rlvc_group *group, uint32_t *used) {
     uint32_t slot = search->view.sample[group->begin + search->at].slot;
     for (uint32_t j = 0; j < search->block; j++) {
         uint8_t present;
-        rlvc_status status = rlvc_searching_look(
-            searching, slot, rlvc_workspace_feature(searching->space, j), &present);
+        rlvc_status status = rlvc_split_input_exhibits(
+            input, slot, rlvc_workspace_feature(input->space, j), &present);
         if (status != RLVC_OK)
             return status;
-        uint64_t *column = rlvc_workspace_column(searching->space, search->words, j);
+        uint64_t *column = rlvc_workspace_column(input->space, search->words, j);
         uint64_t *word = &column[group->word + search->at / 64u];
         uint64_t before = search->at % 64u == 0 ? 0 : *word;
         *word = before | (uint64_t)(present != 0) << search->at % 64u;
@@ -248,21 +249,22 @@ static rlvc_status detect_each(rlvc_search *search, const rlvc_searching *search
 /* Begins to scan the column that search->column names. Where there is but one group, a column that
  * cannot beat the best so far need not be scanned to the end; else its own best counts, for the
  * sum. */
-static void open_column(rlvc_search *search, const rlvc_searching *searching,
+static void open_column(rlvc_split_cursor *search, const rlvc_split_input *input,
                         const rlvc_group *group) {
-    const rlvc_workspace *space = searching->space;
-    rlvc_scan_begin(&search->inner.scan,
-                    rlvc_workspace_column(space, search->words, search->column) + group->word,
-                    space->cuts + group->word, size_of(group), searching->by_ranks,
-                    search->groups == 1 ? search->alone.score : 0.0f);
+    const rlvc_workspace *space = input->space;
+    rlvc_cutpoint_begin(&search->inner.scan,
+                        rlvc_workspace_column(space, search->words, search->column) + group->word,
+                        space->bits.cutpoints + group->word, size_of(group), input->by_ranks,
+                        search->groups == 1 ? search->per_action.score : 0.0f);
 }
 
-static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, uint32_t *used) {
-    const rlvc_group *group = &searching->space->group[search->action];
-    rlvc_status status = searching->domain->detect ? detect_batch(search, searching, group, used)
-                                                   : detect_each(search, searching, group, used);
+static rlvc_status detect(rlvc_split_cursor *search, const rlvc_split_input *input,
+                          uint32_t *used) {
+    const rlvc_group *group = &input->space->group[search->action];
+    rlvc_status status = input->domain->detect ? detect_batch(search, input, group, used)
+                                               : detect_each(search, input, group, used);
     if (status == RLVC_OK && search->at == size_of(group)) {
-        open_column(search, searching, group);
+        open_column(search, input, group);
         enter(search, SCAN);
     }
     return status;
@@ -271,45 +273,45 @@ static rlvc_status detect(rlvc_search *search, const rlvc_searching *searching, 
 /* ------------------------------------------------------------------ evidence */
 
 /* Weighs a cutpoint of the group at work: its table, and the evidence. */
-static rlvc_single weigh(const rlvc_search *search, const rlvc_searching *searching,
-                         const rlvc_cut *cut, uint32_t count) {
+static rlvc_per_action weigh(const rlvc_split_cursor *search, const rlvc_split_input *input,
+                             const rlvc_cutpoint *cut, uint32_t count) {
     uint32_t above = cut->present - cut->present_below;
     const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
                               count - cut->below - above};
-    rlvc_single weighed = {0.0f, cut->score, table, search->action};
-    weighed.evidence = searching->by_ranks ? cut->score : cut->score * (float)count;
+    rlvc_per_action weighed = {0.0f, cut->score, table, search->action};
+    weighed.evidence = input->by_ranks ? cut->score : cut->score * (float)count;
     return weighed;
 }
 
-static void keep_best_alone(rlvc_search *search, const rlvc_workspace *space,
-                            const rlvc_single *found, uint32_t j) {
-    const rlvc_single *best = &search->alone;
+static void keep_best_per_action(rlvc_split_cursor *search, const rlvc_workspace *space,
+                                 const rlvc_per_action *found, uint32_t j) {
+    const rlvc_per_action *best = &search->per_action;
     if (found->evidence > best->evidence ||
         (found->evidence == best->evidence && found->action < best->action)) {
-        search->alone = *found;
-        memcpy(space->alone, rlvc_workspace_feature(space, j), space->feature_bytes);
+        search->per_action = *found;
+        memcpy(space->per_action, rlvc_workspace_feature(space, j), space->feature_bytes);
     }
 }
 
 /* Takes the result of one column and goes on to the next, or to the next group. */
-static void close_column(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_workspace *space = searching->space;
+static void close_column(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    const rlvc_workspace *space = input->space;
     const rlvc_group *group = &space->group[search->action];
-    const rlvc_cut *found = &search->inner.scan.best;
-    rlvc_pool *pool = &space->pool[search->column];
+    const rlvc_cutpoint *found = &search->inner.scan.best;
+    rlvc_pooled *pool = &space->pool[search->column];
     if (found->present > 0 && found->present < size_of(group)) {
         pool->degrees++;
         pool->log_tests += rlvc_ln((float)group->cuts);
     }
     if (found->score > 0.0f) {
-        rlvc_single weighed = weigh(search, searching, found, size_of(group));
+        rlvc_per_action weighed = weigh(search, input, found, size_of(group));
         pool->evidence += weighed.evidence;
         pool->statistic +=
-            searching->by_ranks ? weighed.evidence : rlvc_table_statistic(&weighed.table);
-        keep_best_alone(search, space, &weighed, search->column);
+            input->by_ranks ? weighed.evidence : rlvc_table_statistic(&weighed.table);
+        keep_best_per_action(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
-        open_column(search, searching, group);
+        open_column(search, input, group);
         return;
     }
     search->action++;
@@ -317,34 +319,33 @@ static void close_column(rlvc_search *search, const rlvc_searching *searching) {
 }
 
 /* All groups have seen the block: looks at feature `column` of it, together. A unit each. */
-static void close_feature(rlvc_search *search, const rlvc_workspace *space) {
-    const rlvc_pool *pool = &space->pool[search->column];
+static void close_feature(rlvc_split_cursor *search, const rlvc_workspace *space) {
+    const rlvc_pooled *pool = &space->pool[search->column];
     search->features += pool->degrees > 0;
-    if (pool->evidence > search->together.evidence) {
-        search->together = *pool;
-        memcpy(space->together, rlvc_workspace_feature(space, search->column),
-               space->feature_bytes);
+    if (pool->evidence > search->pooled.evidence) {
+        search->pooled = *pool;
+        memcpy(space->pooled, rlvc_workspace_feature(space, search->column), space->feature_bytes);
     }
     if (++search->column < search->block)
         return;
     search->first += search->block;
-    enter(search, search->block < space->features_at_once ? TEST_ALONE : PROPOSE);
+    enter(search, search->block < space->features_at_once ? TEST_PER_ACTION : PROPOSE);
 }
 
 /* ------------------------------------------------------------------ the domain's own oracle */
 
 /* Puts the next cutpoint of the group at work to the oracle. */
-static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_workspace *space = searching->space;
-    const rlvc_domain *domain = searching->domain;
+static rlvc_status ask(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    const rlvc_workspace *space = input->space;
+    const rlvc_domain *domain = input->domain;
     const rlvc_group *group = &space->group[search->action];
     uint32_t at = search->at;
     if (group->cuts == 0 || at == size_of(group)) {
         search->action++;
-        next_group(search, space, ASK, TEST_ALONE);
+        next_group(search, space, ASK, TEST_PER_ACTION);
         return RLVC_OK;
     }
-    if (space->cuts[group->word + at / 64u] >> at % 64u & 1u) {
+    if (space->bits.cutpoints[group->word + at / 64u] >> at % 64u & 1u) {
         static const rlvc_answer nothing = {0, 0, 0, 0};
         rlvc_samples view = view_of(search, group);
         rlvc_answer *answer = &search->inner.answer;
@@ -362,15 +363,15 @@ static rlvc_status ask(rlvc_search *search, const rlvc_searching *searching) {
 
 /* Looks for the oracle's feature in one sample; after the last, weighs it at the oracle's
  * cutpoint. */
-static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_workspace *space = searching->space;
+static rlvc_status answer(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    const rlvc_workspace *space = input->space;
     const rlvc_group *group = &space->group[search->action];
     rlvc_answer *answer = &search->inner.answer;
     uint32_t count = size_of(group), below = search->at;
     if (answer->at < count) {
         uint8_t present;
         uint32_t slot = search->view.sample[group->begin + answer->at].slot;
-        rlvc_status status = rlvc_searching_look(searching, slot, space->features, &present);
+        rlvc_status status = rlvc_split_input_exhibits(input, slot, space->features, &present);
         if (status != RLVC_OK)
             return status;
         answer->present += present != 0;
@@ -384,40 +385,39 @@ static rlvc_status answer(rlvc_search *search, const rlvc_searching *searching) 
         return RLVC_OK;
     search->features += answer->considered;
     uint32_t above = answer->present - answer->present_below;
-    rlvc_cut cut = {0.0f, below, answer->present_below, answer->present};
+    rlvc_cutpoint cut = {0.0f, below, answer->present_below, answer->present};
     cut.score =
         rlvc_score(cut.present_below, below - cut.present_below, above, count - below - above);
-    rlvc_single weighed = weigh(search, searching, &cut, count);
-    keep_best_alone(search, space, &weighed, 0);
+    rlvc_per_action weighed = weigh(search, input, &cut, count);
+    keep_best_per_action(search, space, &weighed, 0);
     return RLVC_OK;
 }
 
 /* ------------------------------------------------------------------ the whole */
 
 /* Finds the p-value of one of the winners, if there are any. */
-static uint32_t test(rlvc_search *search, const rlvc_searching *searching) {
-    const rlvc_pool *together = &search->together;
-    if (!(search->alone.evidence > 0.0f)) {
+static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    const rlvc_pooled *pooled = &search->pooled;
+    if (!(search->per_action.evidence > 0.0f)) {
         enter(search, DONE);
         return 1;
     }
-    if (search->phase == TEST_ALONE) {
-        if (searching->by_ranks)
-            (void)rlvc_chi2_survival(search->alone.score, 1, NULL, &search->alone_log_p);
+    if (search->phase == TEST_PER_ACTION) {
+        if (input->by_ranks)
+            (void)rlvc_chi2_survival(search->per_action.score, 1, NULL, &search->per_action_log_p);
         else
-            search->alone_log_p = rlvc_table_log_p(&search->alone.table);
-        enter(search, search->groups > 1 && together->degrees > 0 ? TEST_TOGETHER : DONE);
+            search->per_action_log_p = rlvc_table_log_p(&search->per_action.table);
+        enter(search, search->groups > 1 && pooled->degrees > 0 ? TEST_POOLED : DONE);
     } else {
-        (void)rlvc_chi2_survival(together->statistic, together->degrees, NULL,
-                                 &search->together_log_p);
+        (void)rlvc_chi2_survival(pooled->statistic, pooled->degrees, NULL, &search->pooled_log_p);
         enter(search, DONE);
     }
     return RLVC_TEST_UNITS;
 }
 
 /* One elementary step of the phase. */
-static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
-                           uint32_t *used) {
+static rlvc_status advance(rlvc_split_cursor *search, const rlvc_split_input *input,
+                           uint32_t budget, uint32_t *used) {
     *used = 1;
     switch (search->phase) {
     case SORT:
@@ -426,43 +426,43 @@ static rlvc_status advance(rlvc_search *search, const rlvc_searching *searching,
             enter(search, MARK);
         return RLVC_OK;
     case MARK:
-        *used = mark(search, searching, budget);
+        *used = mark(search, input, budget);
         return RLVC_OK;
     case PROPOSE:
-        return propose(search, searching);
+        return propose(search, input);
     case DETECT:
-        return detect(search, searching, used);
+        return detect(search, input, used);
     case SCAN:
-        *used = rlvc_scan_step(&search->inner.scan, budget);
+        *used = rlvc_cutpoint_step(&search->inner.scan, budget);
         if (search->inner.scan.done)
-            close_column(search, searching);
+            close_column(search, input);
         return RLVC_OK;
     case CLOSE:
-        close_feature(search, searching->space);
+        close_feature(search, input->space);
         return RLVC_OK;
     case ASK:
-        return ask(search, searching);
+        return ask(search, input);
     case ANSWER:
-        return answer(search, searching);
+        return answer(search, input);
     default:
-        *used = test(search, searching);
+        *used = test(search, input);
         return RLVC_OK;
     }
 }
 
 /* The units that the phase needs to get on: the steps of some are not divided further. */
-static uint32_t needed(const rlvc_search *search) {
+static uint32_t needed(const rlvc_split_cursor *search) {
     int divided = search->phase == MARK || search->phase == PROPOSE || search->phase == CLOSE ||
                   search->phase == ASK || search->phase == ANSWER;
     return divided ? 1u : RLVC_BUDGET_MIN;
 }
 
-rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
-                             uint32_t *used) {
+rlvc_status rlvc_split_search_step(rlvc_split_cursor *search, const rlvc_split_input *input,
+                                   uint32_t budget, uint32_t *used) {
     *used = 0;
     while (!search->done && budget - *used >= needed(search)) {
         uint32_t units = 0;
-        rlvc_status status = advance(search, searching, budget - *used, &units);
+        rlvc_status status = advance(search, input, budget - *used, &units);
         if (status != RLVC_OK)
             return status;
         *used += units;
@@ -470,25 +470,25 @@ rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searchin
     return RLVC_OK;
 }
 
-rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *searching) {
+rlvc_status rlvc_split_search_single(rlvc_split_cursor *search, const rlvc_split_input *input) {
     uint32_t used = 0;
     if (search->phase == SORT && !search->inner.sort.done) {
         rlvc_sort_single(&search->inner.sort);
         if (search->inner.sort.done)
             enter(search, MARK);
     } else if (search->phase == MARK) {
-        (void)mark(search, searching, 1);
+        (void)mark(search, input, 1);
     } else if (search->phase == SCAN) {
-        rlvc_scan_single(&search->inner.scan);
+        rlvc_cutpoint_single(&search->inner.scan);
         if (search->inner.scan.done)
-            close_column(search, searching);
+            close_column(search, input);
     } else {
-        return advance(search, searching, RLVC_BUDGET_MIN, &used);
+        return advance(search, input, RLVC_BUDGET_MIN, &used);
     }
     return RLVC_OK;
 }
 
-void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]) {
+void rlvc_split_search_mark(const rlvc_split_cursor *search, uint32_t word[10]) {
     word[0] = search->phase;
     word[1] = search->action;
     word[2] = search->at;
@@ -497,33 +497,33 @@ void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]) {
     if (search->phase == SORT)
         rlvc_sort_mark(&search->inner.sort, word + 5);
     else if (search->phase == SCAN)
-        rlvc_scan_mark(&search->inner.scan, word + 5);
+        rlvc_cutpoint_mark(&search->inner.scan, word + 5);
     else if (search->phase == ANSWER)
         word[5] = search->inner.answer.at;
 }
 
-const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
-                               rlvc_split *about) {
-    const rlvc_single *alone = &search->alone;
-    if (!(alone->evidence > 0.0f))
+const void *rlvc_split_search_result(const rlvc_split_cursor *search, const rlvc_workspace *space,
+                                     rlvc_split *about) {
+    const rlvc_per_action *per_action = &search->per_action;
+    if (!(per_action->evidence > 0.0f))
         return NULL;
     float log_features = rlvc_ln((float)search->features);
-    about->action = alone->action;
-    about->samples = size_of(&space->group[alone->action]);
-    about->score = alone->score;
+    about->action = per_action->action;
+    about->samples = size_of(&space->group[per_action->action]);
+    about->score = per_action->score;
     about->log_tests = log_features;
     /* The domain's own oracle already counts a feature for each cutpoint, and makes no sum. */
-    if (search->together.degrees > 0)
+    if (search->pooled.degrees > 0)
         about->log_tests += rlvc_ln((float)search->cuts);
-    about->log_p = search->alone_log_p + about->log_tests;
-    if (search->groups > 1 && search->together.degrees > 0) {
-        const rlvc_pool *together = &search->together;
-        float log_tests = log_features + together->log_tests;
-        float log_p = search->together_log_p + log_tests;
+    about->log_p = search->per_action_log_p + about->log_tests;
+    if (search->groups > 1 && search->pooled.degrees > 0) {
+        const rlvc_pooled *pooled = &search->pooled;
+        float log_tests = log_features + pooled->log_tests;
+        float log_p = search->pooled_log_p + log_tests;
         if (log_p < about->log_p) {
             about->action = space->actions;
             about->samples = search->samples;
-            about->score = together->evidence / (float)search->samples;
+            about->score = pooled->evidence / (float)search->samples;
             about->log_tests = log_tests;
             about->log_p = log_p;
         }
@@ -531,5 +531,5 @@ const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *
         about->log_p += rlvc_ln(2.0f);
     }
     about->log_p = about->log_p < 0.0f ? about->log_p : 0.0f;
-    return about->action == space->actions ? space->together : space->alone;
+    return about->action == space->actions ? space->pooled : space->per_action;
 }

@@ -15,10 +15,10 @@
  * The evidence of a feature and a cutpoint in a group is its score times the samples of the group.
  * Two features may win:
  *
- *   alone      the one with the most evidence at one cutpoint of one group; of equals the lower
+ *   per action the one with the most evidence at one cutpoint of one group; of equals the lower
  *              action, then the earlier feature, then the lower cutpoint. Its table is tested
  *              (table_test.h), its p-value corrected by F times the sum of the groups' C.
- *   together   the one with the most evidence summed over the groups, in each at the cutpoint that
+ *   pooled     the one with the most evidence summed over the groups, in each at the cutpoint that
  *              is best there; of equals the earlier feature. The statistics of its tables
  *              (table_test.h) are added, with a degree of freedom for each group that it divides;
  *              its p-value is corrected by F times the product of their C. For what tells two
@@ -34,6 +34,7 @@
 #include "../samples/targets.h"
 #include "cutpoint.h"
 #include "../stats/table_test.h"
+#include "../samples/rows.h"
 #include "../samples/sort.h"
 
 /* The samples of the class after one action. */
@@ -48,31 +49,34 @@ typedef struct rlvc_group {
 #define RLVC_TEST_UNITS RLVC_BUDGET_MIN
 
 /* What the groups so far say about one feature of the block, together. */
-typedef struct rlvc_pool {
+typedef struct rlvc_pooled {
     float evidence;
     float statistic;
     float log_tests; /* of combinations of cutpoints */
     uint32_t degrees;
-} rlvc_pool;
+} rlvc_pooled;
 
 /* The best feature alone. */
-typedef struct rlvc_single {
+typedef struct rlvc_per_action {
     float evidence;
     float score;
     rlvc_table table;
     uint32_t action;
-} rlvc_single;
+} rlvc_per_action;
 
 /* The memory of a search. */
 typedef struct rlvc_workspace {
-    rlvc_sample *sample;     /* [capacity + 1]: all samples, grouped; or the model's transitions */
-    uint64_t *cuts;          /* [words] */
-    uint64_t *columns;       /* [features_at_once][words | 1], and scratch for sorting */
-    unsigned char *features; /* [features_at_once] the block of candidates */
-    unsigned char *alone;    /* the winner alone, */
-    unsigned char *together; /* and together */
-    rlvc_group *group;       /* [actions] */
-    rlvc_pool *pool;         /* [features_at_once] */
+    rlvc_rows rows; /* [capacity + 1] */
+    union {
+        uint64_t *cutpoints;   /* where a cluster of targets begins */
+        uint64_t *successors;  /* whose s' exhibits a feature: see successor_search.c */
+    } bits;                    /* [words] a bit for each sample */
+    uint64_t *columns;         /* [features_at_once][words | 1], and scratch for sorting */
+    unsigned char *features;   /* [features_at_once] the block of candidates */
+    unsigned char *per_action; /* the winner per_action, */
+    unsigned char *pooled;     /* and together */
+    rlvc_group *group;         /* [actions] */
+    rlvc_pooled *pool;         /* [features_at_once] */
     uint32_t feature_bytes;
     uint32_t features_at_once;
     uint32_t actions;
@@ -102,82 +106,83 @@ typedef struct rlvc_answer {
 } rlvc_answer;
 
 /* The search in one class, in slices. */
-typedef struct rlvc_search {
+typedef struct rlvc_split_cursor {
     rlvc_samples view; /* the class */
     union {
-        rlvc_sort sort;
-        rlvc_scan scan;
+        rlvc_sort_cursor sort;
+        rlvc_cutpoint_cursor scan;
         rlvc_answer answer;
     } inner;
-    rlvc_single alone;
-    rlvc_pool together;
-    uint64_t features; /* F; with the domain's own oracle, what it considered in all */
-    uint32_t samples;  /* in the groups that take part */
-    uint32_t cuts;     /* in all groups */
-    uint32_t groups;   /* that take part */
-    uint32_t action;   /* the group at work */
-    uint32_t words;    /* of all groups */
-    uint32_t at;       /* sample of the group */
-    uint32_t lowest;   /* the key that began the present cluster of targets */
-    uint32_t first;    /* number of the block's first candidate */
-    uint32_t block;    /* candidates in the block */
-    uint32_t column;   /* of the block */
-    float alone_log_p; /* of the winners' statistics, not yet corrected */
-    float together_log_p;
+    rlvc_per_action per_action;
+    rlvc_pooled pooled;
+    uint64_t features;      /* F; with the domain's own oracle, what it considered in all */
+    uint32_t samples;       /* in the groups that take part */
+    uint32_t cuts;          /* in all groups */
+    uint32_t groups;        /* that take part */
+    uint32_t action;        /* the group at work */
+    uint32_t words;         /* of all groups */
+    uint32_t at;            /* sample of the group */
+    uint32_t lowest;        /* the key that began the present cluster of targets */
+    uint32_t first;         /* number of the block's first candidate */
+    uint32_t block;         /* candidates in the block */
+    uint32_t column;        /* of the block */
+    float per_action_log_p; /* of the winners' statistics, not yet corrected */
+    float pooled_log_p;
     uint8_t phase;
     uint8_t done;
-} rlvc_search;
+} rlvc_split_cursor;
 
 /* What does not change while a step is under way. */
-typedef struct rlvc_searching {
+typedef struct rlvc_split_input {
     const rlvc_workspace *space;
     const rlvc_replay *replay;
-    const rlvc_aliasing *aliasing;
+    const rlvc_target_input *aliasing;
     const rlvc_domain *domain;
     uint32_t min_samples;
     uint8_t by_ranks; /* config.score is RLVC_SCORE_RANKS */
-} rlvc_searching;
+} rlvc_split_input;
 
 /* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes
  * the class, and the workspace's groups are laid out.
  * @return the words of a column. O(actions). */
-uint32_t rlvc_searching_open(const rlvc_searching *searching, const uint32_t *first,
-                             rlvc_samples *view);
+uint32_t rlvc_split_input_open(const rlvc_split_input *input, const uint32_t *first,
+                               rlvc_samples *view);
 
 /* Asks for the class's candidates from number `first` on, into the workspace's block.
  * @return RLVC_OK; RLVC_E_CALLBACK: *written means nothing. */
-rlvc_status rlvc_searching_propose(const rlvc_searching *searching, const rlvc_samples *view,
-                                   uint32_t first, uint32_t *written);
+rlvc_status rlvc_split_input_propose(const rlvc_split_input *input, const rlvc_samples *view,
+                                     uint32_t first, uint32_t *written);
 
 /* Does the percept in a slot exhibit a feature?
  * @return RLVC_OK; RLVC_E_CALLBACK. */
-rlvc_status rlvc_searching_look(const rlvc_searching *searching, uint32_t slot, const void *feature,
-                                uint8_t *present);
+rlvc_status rlvc_split_input_exhibits(const rlvc_split_input *input, uint32_t slot,
+                                      const void *feature, uint8_t *present);
 
 /* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the
  * workspace's samples. O(actions). */
-void rlvc_search_begin(rlvc_search *search, const rlvc_searching *searching, const uint32_t *first);
+void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *input,
+                             const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for
  * each sample marked or detected (with up to 64 features; without detect(), for each feature of
  * each sample), what sorting and the scan of each column are charged, one for each feature of a
  * block, RLVC_TEST_UNITS for each of the two p-values.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
-rlvc_status rlvc_search_step(rlvc_search *search, const rlvc_searching *searching, uint32_t budget,
-                             uint32_t *used);
+rlvc_status rlvc_split_search_step(rlvc_split_cursor *search, const rlvc_split_input *input,
+                                   uint32_t budget, uint32_t *used);
 
 /* Takes the smallest step that a cursor can stop after. Not to be called when done.
  * @return RLVC_OK; RLVC_E_CALLBACK. */
-rlvc_status rlvc_search_single(rlvc_search *search, const rlvc_searching *searching);
+rlvc_status rlvc_split_search_single(rlvc_split_cursor *search, const rlvc_split_input *input);
 
 /* How far the cursor has come, for a snapshot: the same only for the same state on the same
  * input. */
-void rlvc_search_mark(const rlvc_search *search, uint32_t word[10]);
+void rlvc_split_search_mark(const rlvc_split_cursor *search, uint32_t word[10]);
 
 /* Once done: fills action, samples, log_tests, score and log_p of *about.
  * @return the feature, in the workspace; null if there is none to tell the samples apart.
  * O(degrees). */
-const void *rlvc_search_result(const rlvc_search *search, const rlvc_workspace *space,
-                               rlvc_split *about);
+const void *rlvc_split_search_result(const rlvc_split_cursor *search, const rlvc_workspace *space,
+                                     rlvc_split *about);
 
 #endif

@@ -17,201 +17,200 @@ enum { PROPOSE, NOW, NEXT, COUNT, TABLE, TEST, DONE };
 #define WORD_UNITS 2u
 #define TABLE_UNITS 24u
 
-static void enter(rlvc_succession *succession, uint8_t phase) {
-    succession->phase = phase;
-    succession->action = 0;
-    succession->at = 0;
-    succession->done = phase == DONE;
+static void enter(rlvc_successor_cursor *search, uint8_t phase) {
+    search->phase = phase;
+    search->action = 0;
+    search->at = 0;
+    search->done = phase == DONE;
 }
 
-void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *searching,
-                           const uint32_t *first) {
-    memset(succession, 0, sizeof *succession);
-    succession->words = rlvc_searching_open(searching, first, &succession->view);
-    enter(succession, succession->view.count < searching->min_samples ? DONE : PROPOSE);
+void rlvc_successor_search_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                                 const uint32_t *first) {
+    memset(search, 0, sizeof *search);
+    search->words = rlvc_split_input_open(input, first, &search->view);
+    enter(search, search->view.count < input->min_samples ? DONE : PROPOSE);
 }
 
-static rlvc_status propose(rlvc_succession *succession, const rlvc_searching *searching) {
+static rlvc_status propose(rlvc_successor_cursor *search, const rlvc_split_input *input) {
     uint32_t written;
-    rlvc_status status = rlvc_searching_propose(searching, &succession->view, 0, &written);
+    rlvc_status status = rlvc_split_input_propose(input, &search->view, 0, &written);
     if (status != RLVC_OK)
         return status;
-    succession->features = written;
-    enter(succession, written > 0 ? NOW : DONE);
+    search->features = written;
+    enter(search, written > 0 ? NOW : DONE);
     return RLVC_OK;
 }
 
-static uint64_t *now_column(const rlvc_succession *succession, const rlvc_workspace *space) {
-    return rlvc_workspace_column(space, succession->words, succession->now);
+static uint64_t *now_column(const rlvc_successor_cursor *search, const rlvc_workspace *space) {
+    return rlvc_workspace_column(space, search->words, search->now);
 }
 
 /* ------------------------------------------------------------------ columns */
 
 /* Does s, or s', of sample i of the class exhibit a feature? */
-static rlvc_status look(const rlvc_succession *succession, const rlvc_searching *searching,
-                        uint32_t i, uint8_t *present) {
-    const rlvc_replay *replay = searching->replay;
-    uint32_t slot = succession->view.sample[i].slot;
-    uint32_t j = succession->phase == NOW ? succession->now : succession->next;
-    if (succession->phase == NEXT) {
+static rlvc_status exhibits(const rlvc_successor_cursor *search, const rlvc_split_input *input,
+                            uint32_t i, uint8_t *present) {
+    const rlvc_replay *replay = input->replay;
+    uint32_t slot = search->view.sample[i].slot;
+    uint32_t j = search->phase == NOW ? search->now : search->next;
+    if (search->phase == NEXT) {
         *present = 0;
         if (!rlvc_replay_linked(replay, slot))
             return RLVC_OK;
         slot = rlvc_replay_next(replay, slot);
     }
-    return rlvc_searching_look(searching, slot, rlvc_workspace_feature(searching->space, j),
-                               present);
+    return rlvc_split_input_exhibits(input, slot, rlvc_workspace_feature(input->space, j), present);
 }
 
 /* A column is complete. */
-static void close_column(rlvc_succession *succession) {
-    if (succession->phase == NOW && ++succession->now < succession->features) {
-        enter(succession, NOW);
+static void close_column(rlvc_successor_cursor *search) {
+    if (search->phase == NOW && ++search->now < search->features) {
+        enter(search, NOW);
         return;
     }
-    uint8_t then = succession->phase == NOW ? NEXT : COUNT;
-    succession->now = 0;
-    enter(succession, then);
+    uint8_t then = search->phase == NOW ? NEXT : COUNT;
+    search->now = 0;
+    enter(search, then);
 }
 
 /* Sets the bits of up to `budget` samples of the group at work, and goes on to the next group. */
-static rlvc_status fill(rlvc_succession *succession, const rlvc_searching *searching,
+static rlvc_status fill(rlvc_successor_cursor *search, const rlvc_split_input *input,
                         uint32_t budget, uint32_t *used) {
-    const rlvc_workspace *space = searching->space;
-    const rlvc_group *group = &space->group[succession->action];
+    const rlvc_workspace *space = input->space;
+    const rlvc_group *group = &space->group[search->action];
     uint64_t *word =
-        (succession->phase == NOW ? now_column(succession, space) : space->cuts) + group->word;
+        (search->phase == NOW ? now_column(search, space) : space->bits.successors) + group->word;
     uint32_t size = group->end - group->begin;
-    for (*used = 0; *used < budget && succession->at < size; ++*used) {
-        uint32_t at = succession->at;
+    for (*used = 0; *used < budget && search->at < size; ++*used) {
+        uint32_t at = search->at;
         uint8_t present = 0;
-        rlvc_status status = look(succession, searching, group->begin + at, &present);
+        rlvc_status status = exhibits(search, input, group->begin + at, &present);
         if (status != RLVC_OK)
             return status;
         uint64_t before = at % 64u == 0 ? 0 : word[at / 64u];
         word[at / 64u] = before | (uint64_t)(present != 0) << at % 64u;
-        succession->at++;
+        search->at++;
     }
-    if (succession->at < size)
+    if (search->at < size)
         return RLVC_OK;
     *used += *used == 0; /* an empty group */
-    succession->at = 0;
-    if (++succession->action == space->actions)
-        close_column(succession);
+    search->at = 0;
+    if (++search->action == space->actions)
+        close_column(search);
     return RLVC_OK;
 }
 
 /* ------------------------------------------------------------------ tables */
 
 /* Counts up to `most` words of the group at work. Returns how many. */
-static uint32_t count(rlvc_succession *succession, const rlvc_workspace *space, uint32_t most) {
-    const rlvc_group *group = &space->group[succession->action];
-    const uint64_t *now = now_column(succession, space) + group->word;
-    const uint64_t *next = space->cuts + group->word;
+static uint32_t count(rlvc_successor_cursor *search, const rlvc_workspace *space, uint32_t most) {
+    const rlvc_group *group = &space->group[search->action];
+    const uint64_t *now = now_column(search, space) + group->word;
+    const uint64_t *next = space->bits.successors + group->word;
     uint32_t words = (group->end - group->begin + 63u) / 64u;
-    uint32_t from = succession->at, left = words - from;
+    uint32_t from = search->at, left = words - from;
     uint32_t to = from + (left < most ? left : most);
     for (uint32_t i = from; i < to; i++) {
         uint64_t both = now[i] & next[i];
-        succession->with_now += rlvc_ones(now + i, 1);
-        succession->with_next += rlvc_ones(next + i, 1);
-        succession->with_both += rlvc_ones(&both, 1);
+        search->with_now += rlvc_popcount(now + i, 1);
+        search->with_next += rlvc_popcount(next + i, 1);
+        search->with_both += rlvc_popcount(&both, 1);
     }
-    succession->at = to;
+    search->at = to;
     if (to == words)
-        succession->phase = TABLE;
+        search->phase = TABLE;
     return to == from ? 1u : to - from; /* 1 for an empty group */
 }
 
 /* ln of the number of tests that a pair is corrected by (Bonferroni). Whether s' exhibits what s
  * exhibits is mostly told by s: the F pairs with g = f have half of the level, and the other F (F -
  * 1) the other half. */
-static float log_tests(const rlvc_succession *succession, const rlvc_follows *pair) {
-    float features = (float)succession->features;
+static float log_tests(const rlvc_successor_cursor *search, const rlvc_successor_pair *pair) {
+    float features = (float)search->features;
     return rlvc_ln(2.0f * features * (pair->persists ? 1.0f : features - 1.0f));
 }
 
 /* The sums of a pair are complete: goes on to the next pair. */
-static void close_pair(rlvc_succession *succession) {
-    static const rlvc_follows nothing = {0.0f, 0.0f, 0, 0, 0};
-    rlvc_follows *pair = &succession->sum;
+static void close_pair(rlvc_successor_cursor *search) {
+    static const rlvc_successor_pair nothing = {0.0f, 0.0f, 0, 0, 0};
+    rlvc_successor_pair *pair = &search->sum;
     if (pair->degrees > 0) {
-        pair->feature = succession->now;
-        pair->persists = succession->now == succession->next;
-        pair->evidence = pair->statistic - 2.0f * log_tests(succession, pair);
-        if (succession->best.degrees == 0 || pair->evidence > succession->best.evidence)
-            succession->best = *pair;
+        pair->feature = search->now;
+        pair->persists = search->now == search->next;
+        pair->evidence = pair->statistic - 2.0f * log_tests(search, pair);
+        if (search->best.degrees == 0 || pair->evidence > search->best.evidence)
+            search->best = *pair;
     }
     *pair = nothing;
-    if (++succession->now < succession->features) {
-        enter(succession, COUNT);
+    if (++search->now < search->features) {
+        enter(search, COUNT);
         return;
     }
-    succession->now = 0;
-    enter(succession, ++succession->next < succession->features ? NEXT : TEST);
+    search->now = 0;
+    enter(search, ++search->next < search->features ? NEXT : TEST);
 }
 
 /* Weighs the table of one action. */
-static void weigh(rlvc_succession *succession, const rlvc_workspace *space) {
-    const rlvc_group *group = &space->group[succession->action];
+static void weigh(rlvc_successor_cursor *search, const rlvc_workspace *space) {
+    const rlvc_group *group = &space->group[search->action];
     uint32_t size = group->end - group->begin;
-    uint32_t both = succession->with_both, now = succession->with_now, next = succession->with_next;
+    uint32_t both = search->with_both, now = search->with_now, next = search->with_next;
     if (now > 0 && now < size && next > 0 && next < size) {
         const rlvc_table table = {both, now - both, next - both, size - now - next + both};
-        succession->sum.statistic += rlvc_table_statistic(&table);
-        succession->sum.degrees++;
+        search->sum.statistic += rlvc_table_statistic(&table);
+        search->sum.degrees++;
     }
-    succession->with_both = 0;
-    succession->with_now = 0;
-    succession->with_next = 0;
-    succession->at = 0;
-    succession->phase = COUNT;
-    if (++succession->action == space->actions)
-        close_pair(succession);
+    search->with_both = 0;
+    search->with_now = 0;
+    search->with_next = 0;
+    search->at = 0;
+    search->phase = COUNT;
+    if (++search->action == space->actions)
+        close_pair(search);
 }
 
 /* ------------------------------------------------------------------ the whole */
 
-static rlvc_status advance(rlvc_succession *succession, const rlvc_searching *searching,
+static rlvc_status advance(rlvc_successor_cursor *search, const rlvc_split_input *input,
                            uint32_t budget, uint32_t *used) {
-    switch (succession->phase) {
+    switch (search->phase) {
     case PROPOSE:
         *used = 1;
-        return propose(succession, searching);
+        return propose(search, input);
     case NOW:
     case NEXT:
-        return fill(succession, searching, budget, used);
+        return fill(search, input, budget, used);
     case COUNT:
-        *used = WORD_UNITS * count(succession, searching->space, budget / WORD_UNITS);
+        *used = WORD_UNITS * count(search, input->space, budget / WORD_UNITS);
         return RLVC_OK;
     case TABLE:
         *used = TABLE_UNITS;
-        weigh(succession, searching->space);
+        weigh(search, input->space);
         return RLVC_OK;
     default:
         *used = RLVC_TEST_UNITS;
-        if (succession->best.degrees > 0)
-            (void)rlvc_chi2_survival(succession->best.statistic, succession->best.degrees, NULL,
-                                     &succession->log_p);
-        enter(succession, DONE);
+        if (search->best.degrees > 0)
+            (void)rlvc_chi2_survival(search->best.statistic, search->best.degrees, NULL,
+                                     &search->log_p);
+        enter(search, DONE);
         return RLVC_OK;
     }
 }
 
-static uint32_t needed(const rlvc_succession *succession) {
-    if (succession->phase == TEST)
+static uint32_t needed(const rlvc_successor_cursor *search) {
+    if (search->phase == TEST)
         return RLVC_TEST_UNITS;
-    if (succession->phase == COUNT)
+    if (search->phase == COUNT)
         return WORD_UNITS;
-    return succession->phase == TABLE ? TABLE_UNITS : 1u;
+    return search->phase == TABLE ? TABLE_UNITS : 1u;
 }
 
-rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,
-                                 uint32_t budget, uint32_t *used) {
+rlvc_status rlvc_successor_search_step(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                                       uint32_t budget, uint32_t *used) {
     *used = 0;
-    while (!succession->done && budget - *used >= needed(succession)) {
+    while (!search->done && budget - *used >= needed(search)) {
         uint32_t units = 0;
-        rlvc_status status = advance(succession, searching, budget - *used, &units);
+        rlvc_status status = advance(search, input, budget - *used, &units);
         *used += units;
         if (status != RLVC_OK)
             return status;
@@ -219,28 +218,29 @@ rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searchi
     return RLVC_OK;
 }
 
-rlvc_status rlvc_succession_single(rlvc_succession *succession, const rlvc_searching *searching) {
+rlvc_status rlvc_successor_search_single(rlvc_successor_cursor *search,
+                                         const rlvc_split_input *input) {
     uint32_t used = 0;
-    return advance(succession, searching, succession->phase == COUNT ? WORD_UNITS : 1u, &used);
+    return advance(search, input, search->phase == COUNT ? WORD_UNITS : 1u, &used);
 }
 
-void rlvc_succession_mark(const rlvc_succession *succession, uint32_t word[5]) {
-    word[0] = succession->phase;
-    word[1] = succession->next;
-    word[2] = succession->now;
-    word[3] = succession->action;
-    word[4] = succession->at;
+void rlvc_successor_search_mark(const rlvc_successor_cursor *search, uint32_t word[5]) {
+    word[0] = search->phase;
+    word[1] = search->next;
+    word[2] = search->now;
+    word[3] = search->action;
+    word[4] = search->at;
 }
 
-const void *rlvc_succession_result(const rlvc_succession *succession, const rlvc_workspace *space,
-                                   rlvc_split *about) {
-    if (succession->best.degrees == 0)
+const void *rlvc_successor_search_result(const rlvc_successor_cursor *search,
+                                         const rlvc_workspace *space, rlvc_split *about) {
+    if (search->best.degrees == 0)
         return NULL;
     about->action = space->actions + 1u;
-    about->samples = succession->view.count;
-    about->score = succession->best.statistic / (float)succession->view.count;
-    about->log_tests = log_tests(succession, &succession->best);
-    about->log_p = succession->log_p + about->log_tests;
+    about->samples = search->view.count;
+    about->score = search->best.statistic / (float)search->view.count;
+    about->log_tests = log_tests(search, &search->best);
+    about->log_p = search->log_p + about->log_tests;
     about->log_p = about->log_p < 0.0f ? about->log_p : 0.0f;
-    return rlvc_workspace_feature(space, succession->best.feature);
+    return rlvc_workspace_feature(space, search->best.feature);
 }

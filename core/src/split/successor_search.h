@@ -21,19 +21,19 @@
 #include "split_search.h"
 
 /* The sum over the actions for one pair (f, g). */
-typedef struct rlvc_follows {
+typedef struct rlvc_successor_pair {
     float statistic;
     float evidence;
     uint32_t degrees;
     uint32_t feature;  /* f */
     uint32_t persists; /* g = f? */
-} rlvc_follows;
+} rlvc_successor_pair;
 
 /* The search in one class, in slices. */
-typedef struct rlvc_succession {
-    rlvc_samples view; /* the class */
-    rlvc_follows sum;  /* of the pair at work */
-    rlvc_follows best;
+typedef struct rlvc_successor_cursor {
+    rlvc_samples view;       /* the class */
+    rlvc_successor_pair sum; /* of the pair at work */
+    rlvc_successor_pair best;
     uint32_t features; /* F */
     uint32_t words;    /* of all groups */
     uint32_t now;      /* f */
@@ -46,33 +46,34 @@ typedef struct rlvc_succession {
     float log_p;        /* of the best, not yet corrected */
     uint8_t phase;
     uint8_t done;
-} rlvc_succession;
+} rlvc_successor_cursor;
 
 /* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the
  * workspace's samples. O(actions). */
-void rlvc_succession_begin(rlvc_succession *succession, const rlvc_searching *searching,
-                           const uint32_t *first);
+void rlvc_successor_search_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                                 const uint32_t *first);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for the
  * candidates, one for each call of exhibits(), two for each 64 samples of a table, 24 for each
  * table, RLVC_TEST_UNITS for the p-value.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
-rlvc_status rlvc_succession_step(rlvc_succession *succession, const rlvc_searching *searching,
-                                 uint32_t budget, uint32_t *used);
+rlvc_status rlvc_successor_search_step(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                                       uint32_t budget, uint32_t *used);
 
 /* Takes the smallest step that a cursor can stop after. Not to be called when done.
  * @return RLVC_OK; RLVC_E_CALLBACK. */
-rlvc_status rlvc_succession_single(rlvc_succession *succession, const rlvc_searching *searching);
+rlvc_status rlvc_successor_search_single(rlvc_successor_cursor *search,
+                                         const rlvc_split_input *input);
 
 /* How far the cursor has come, for a snapshot: the same only for the same state on the same
  * input. */
-void rlvc_succession_mark(const rlvc_succession *succession, uint32_t word[5]);
+void rlvc_successor_search_mark(const rlvc_successor_cursor *search, uint32_t word[5]);
 
 /* Once done: fills action (= actions + 1), samples, log_tests, score (the statistic a sample) and
  * log_p of
  * *about.
  * @return the feature, in the workspace; null if nothing could be told apart. O(1). */
-const void *rlvc_succession_result(const rlvc_succession *succession, const rlvc_workspace *space,
-                                   rlvc_split *about);
+const void *rlvc_successor_search_result(const rlvc_successor_cursor *search,
+                                         const rlvc_workspace *space, rlvc_split *about);
 
 #endif

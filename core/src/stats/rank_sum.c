@@ -13,7 +13,7 @@ static uint64_t cube(uint32_t t) {
     return (uint64_t)t * t * t;
 }
 
-void rlvc_ranks_add(rlvc_ranks *ranks, uint32_t at, uint32_t column, uint32_t cuts) {
+void rlvc_rank_sum_add(rlvc_rank_sum *ranks, uint32_t at, uint32_t column, uint32_t cuts) {
     uint32_t inside = ranks->inside;
     while (cuts != 0) {
         if (cuts & 1u) {
@@ -28,12 +28,12 @@ void rlvc_ranks_add(rlvc_ranks *ranks, uint32_t at, uint32_t column, uint32_t cu
         at++;
     }
     const uint64_t rest = column;
-    ranks->inside = inside + rlvc_ones(&rest, 1);
+    ranks->inside = inside + rlvc_popcount(&rest, 1);
 }
 
-float rlvc_ranks_statistic(rlvc_ranks *ranks, uint32_t present, uint32_t count) {
-    RLVC_ASSERT(present > 0 && present < count && count <= RLVC_RANKS_MAX);
-    rlvc_ranks_add(ranks, count, 0, 1); /* the last cluster ends */
+float rlvc_rank_sum_statistic(rlvc_rank_sum *ranks, uint32_t present, uint32_t count) {
+    RLVC_ASSERT(present > 0 && present < count && count <= RLVC_RANK_SUM_MAX);
+    rlvc_rank_sum_add(ranks, count, 0, 1); /* the last cluster ends */
     const uint32_t absent = count - present;
     const int32_t more = (int32_t)(present - absent);
     const uint64_t all = cube(count);

@@ -31,25 +31,25 @@
 
 #include <stdint.h>
 
-#define RLVC_RANKS_MAX (1u << 21) /* samples: their number cubed fits into 64 bits */
+#define RLVC_RANK_SUM_MAX (1u << 21) /* samples: their number cubed fits into 64 bits */
 
 /* All 0 at the beginning of a column. Of the clusters before the present one: */
-typedef struct rlvc_ranks {
+typedef struct rlvc_rank_sum {
     uint64_t sum;    /* of s + e, over the samples that exhibit the feature */
     uint64_t cubes;  /* sum of t^3 */
     uint32_t begin;  /* of the present cluster */
     uint32_t inside; /* samples in it so far that exhibit the feature */
-} rlvc_ranks;
+} rlvc_rank_sum;
 
 /* Adds 32 samples from number `at` on, by ascending target. O(1).
  * @param column bit i is 1 if sample at + i exhibits the feature; 0 where there is no such sample
  * @param cuts   bit i is 1 if a cluster begins with sample at + i, which is not the first of all */
-void rlvc_ranks_add(rlvc_ranks *ranks, uint32_t at, uint32_t column, uint32_t cuts);
+void rlvc_rank_sum_add(rlvc_rank_sum *ranks, uint32_t at, uint32_t column, uint32_t cuts);
 
 /* T. Once only, after all samples: of these some exhibit the feature and some do not, and they are
  * of two clusters or more. O(1).
  * @param present A, within (0, count)
- * @param count   N, [2, RLVC_RANKS_MAX] */
-float rlvc_ranks_statistic(rlvc_ranks *ranks, uint32_t present, uint32_t count);
+ * @param count   N, [2, RLVC_RANK_SUM_MAX] */
+float rlvc_rank_sum_statistic(rlvc_rank_sum *ranks, uint32_t present, uint32_t count);
 
 #endif

@@ -99,12 +99,12 @@ static float ln_exact(const rlvc_table *table) {
     return ln_p < 0.0f ? ln_p : 0.0f;
 }
 
-static uint32_t least(uint32_t x, uint32_t y) {
+static uint32_t smaller(uint32_t x, uint32_t y) {
     return x < y ? x : y;
 }
 
 static int expects_below(const rlvc_table *t, uint32_t count) {
-    uint64_t row = least(t->a + t->b, t->c + t->d), column = least(t->a + t->c, t->b + t->d);
+    uint64_t row = smaller(t->a + t->b, t->c + t->d), column = smaller(t->a + t->c, t->b + t->d);
     return row * column < (uint64_t)count * (t->a + t->b + t->c + t->d);
 }
 

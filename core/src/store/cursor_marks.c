@@ -7,7 +7,7 @@
 
 /* ------------------------------------------------------------------ marks */
 
-void rlvc_resume_mark(const rlvc_agent *agent, rlvc_mark *mark) {
+void rlvc_cursor_marks_take(const rlvc_agent *agent, rlvc_cursor_mark *mark) {
     const rlvc_learner *learner = &agent->learner;
     memset(mark, 0, sizeof *mark);
     if (learner->phase == RLVC_PHASE_GROUP)
@@ -16,12 +16,12 @@ void rlvc_resume_mark(const rlvc_agent *agent, rlvc_mark *mark) {
         rlvc_model_mark(&learner->work.model, mark->word);
     else if (learner->phase == RLVC_PHASE_SOLVE)
         rlvc_solver_mark(&learner->work.solver, mark->word);
-    else if (learner->phase == RLVC_PHASE_SEEK)
-        rlvc_seeking_mark(&learner->work.seeking, mark->word);
+    else if (learner->phase == RLVC_PHASE_NOVELTY)
+        rlvc_novelty_mark(&learner->work.novelty, mark->word);
     else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching)
-        rlvc_search_mark(&learner->work.search, mark->word);
-    else if (learner->phase == RLVC_PHASE_SUCCESSION && learner->searching)
-        rlvc_succession_mark(&learner->work.succession, mark->word);
+        rlvc_split_search_mark(&learner->work.split, mark->word);
+    else if (learner->phase == RLVC_PHASE_SUCCESSORS && learner->searching)
+        rlvc_successor_search_mark(&learner->work.successors, mark->word);
 }
 
 /* ------------------------------------------------------------------ checks */
@@ -31,11 +31,11 @@ static uint32_t last_at(const rlvc_agent *agent) {
     switch (agent->learner.phase) {
     case RLVC_PHASE_LABEL:
         return agent->replay.frozen;
-    case RLVC_PHASE_KEEP:
+    case RLVC_PHASE_COPY_VALUES:
     case RLVC_PHASE_FINISH:
         return agent->tree.classes;
     case RLVC_PHASE_SEARCH:
-    case RLVC_PHASE_SUCCESSION:
+    case RLVC_PHASE_SUCCESSORS:
         return agent->learner.classes;
     default:
         return 0;
@@ -46,14 +46,14 @@ static uint32_t last_at(const rlvc_agent *agent) {
 static int phase_is_possible(const rlvc_agent *agent) {
     int incremental = rlvc_is_incremental(&agent->config);
     switch (agent->learner.phase) {
-    case RLVC_PHASE_KEEP:
+    case RLVC_PHASE_COPY_VALUES:
         return incremental && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
     case RLVC_PHASE_MODEL:
     case RLVC_PHASE_SOLVE:
         return !incremental;
-    case RLVC_PHASE_SEEK:
+    case RLVC_PHASE_NOVELTY:
         return !incremental && agent->config.explore == RLVC_EXPLORE_DIRECTED;
-    case RLVC_PHASE_SUCCESSION:
+    case RLVC_PHASE_SUCCESSORS:
         return agent->config.successors && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
     default:
         return agent->learner.phase <= RLVC_PHASE_FINISH;
@@ -94,14 +94,14 @@ static int pending_is_sound(const rlvc_agent *agent) {
     return 1;
 }
 
-int rlvc_resume_check(const rlvc_agent *agent) {
+int rlvc_cursor_marks_check(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
     if (!phase_is_possible(agent) || !pending_is_sound(agent))
         return 0;
     if (learner->phase == RLVC_PHASE_IDLE)
         return agent->replay.frozen == 0;
     int searching = rlvc_phase_splits(learner->phase);
-    if (learner->at > last_at(agent) || learner->node > 2u * (agent->tree.classes - 1u))
+    if (learner->at > last_at(agent) || learner->walk.node > 2u * (agent->tree.classes - 1u))
         return 0;
     if (learner->made > agent->tree.classes || learner->splits >= agent->tree.classes)
         return 0;
@@ -118,47 +118,46 @@ static int is_done(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
     if (learner->phase == RLVC_PHASE_GROUP)
         return learner->work.grouping.done;
-    if (learner->phase == RLVC_PHASE_SUCCESSION)
-        return learner->work.succession.done;
-    if (learner->phase == RLVC_PHASE_SEEK)
-        return learner->work.seeking.done;
-    return learner->phase == RLVC_PHASE_MODEL ? learner->work.model.done
-                                              : learner->work.search.done;
+    if (learner->phase == RLVC_PHASE_SUCCESSORS)
+        return learner->work.successors.done;
+    if (learner->phase == RLVC_PHASE_NOVELTY)
+        return learner->work.novelty.done;
+    return learner->phase == RLVC_PHASE_MODEL ? learner->work.model.done : learner->work.split.done;
 }
 
 /* What was counted while the phase was under way stays as it was loaded. */
-static void seek_single(rlvc_agent *agent) {
-    rlvc_solving solving = rlvc_learner_solving(agent);
+static void novelty_single(rlvc_agent *agent) {
+    rlvc_solver_input input = rlvc_learner_solver_input(agent);
     rlvc_explorer counted = agent->explorer;
-    counted.seen = NULL;
-    (void)rlvc_seeking_step(&agent->learner.work.seeking, &solving, &agent->values, &counted, 1);
+    counted.count = NULL;
+    (void)rlvc_novelty_step(&agent->learner.work.novelty, &input, &agent->values, &counted, 1);
 }
 
 static rlvc_status single(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
-    rlvc_aliasing successor = rlvc_learner_aliasing(agent, RLVC_KEY_SUCCESSOR);
-    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
+    rlvc_target_input successor = rlvc_learner_target_input(agent, RLVC_TARGET_SUCCESSOR);
+    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
     if (learner->phase == RLVC_PHASE_SEARCH)
-        return rlvc_search_single(&learner->work.search, &searching);
-    if (learner->phase == RLVC_PHASE_SUCCESSION)
-        return rlvc_succession_single(&learner->work.succession, &searching);
-    if (learner->phase == RLVC_PHASE_SEEK)
-        seek_single(agent);
+        return rlvc_split_search_single(&learner->work.split, &input);
+    if (learner->phase == RLVC_PHASE_SUCCESSORS)
+        return rlvc_successor_search_single(&learner->work.successors, &input);
+    if (learner->phase == RLVC_PHASE_NOVELTY)
+        novelty_single(agent);
     else if (learner->phase == RLVC_PHASE_GROUP)
-        (void)rlvc_grouping_step(&learner->work.grouping, &criterion, agent->space.sample,
-                                 agent->values.first, 1);
+        (void)rlvc_grouping_step(&learner->work.grouping, &criterion, agent->space.rows.sample,
+                                 agent->values.begin.sample, 1);
     else
-        rlvc_model_single(&learner->work.model, &successor, &agent->values, agent->space.sample,
+        rlvc_model_single(&learner->work.model, &successor, &agent->values, agent->space.rows,
                           agent->space.columns);
     return RLVC_OK;
 }
 
 /* Goes on until the mark is reached; without one, until the phase is done. */
-static rlvc_status advance_to(rlvc_agent *agent, const rlvc_mark *mark) {
+static rlvc_status advance_to(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
     for (;;) {
-        rlvc_mark here;
-        rlvc_resume_mark(agent, &here);
+        rlvc_cursor_mark here;
+        rlvc_cursor_marks_take(agent, &here);
         if (mark && memcmp(&here, mark, sizeof here) == 0)
             return RLVC_OK;
         if (is_done(agent))
@@ -170,7 +169,7 @@ static rlvc_status advance_to(rlvc_agent *agent, const rlvc_mark *mark) {
 }
 
 /* Does GROUP or MODEL anew, up to a mark or to its end. */
-static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_mark *mark) {
+static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_cursor_mark *mark) {
     rlvc_learner *learner = &agent->learner;
     uint8_t now = learner->phase;
     uint32_t pairs = learner->classes * agent->config.actions;
@@ -184,42 +183,43 @@ static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_mark *mark)
     return status;
 }
 
-static rlvc_status redo_search(rlvc_agent *agent, const rlvc_mark *mark) {
+static rlvc_status redo_search(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_aliasing criterion = rlvc_learner_aliasing(agent, agent->config.criterion);
-    rlvc_searching searching = rlvc_learner_searching(agent, &criterion);
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
+    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
     (void)redo(agent, RLVC_PHASE_GROUP, NULL);
     if (!learner->searching)
         return RLVC_OK;
-    const uint32_t *first = agent->values.first + rlvc_values_pair(&agent->values, learner->at, 0);
-    if (learner->phase == RLVC_PHASE_SUCCESSION)
-        rlvc_succession_begin(&learner->work.succession, &searching, first);
+    const uint32_t *first =
+        agent->values.begin.sample + rlvc_values_pair(&agent->values, learner->at, 0);
+    if (learner->phase == RLVC_PHASE_SUCCESSORS)
+        rlvc_successor_search_begin(&learner->work.successors, &input, first);
     else
-        rlvc_search_begin(&learner->work.search, &searching, first);
+        rlvc_split_search_begin(&learner->work.split, &input, first);
     return advance_to(agent, mark);
 }
 
 /* The solver goes over the values in place, so that its cursor is taken from the mark itself. */
-static rlvc_status redo_solve(rlvc_agent *agent, const rlvc_mark *mark) {
-    rlvc_solver *solver = &agent->learner.work.solver;
-    rlvc_solving solving = rlvc_learner_solving(agent);
+static rlvc_status redo_solve(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
+    rlvc_solver_cursor *solver = &agent->learner.work.solver;
+    rlvc_solver_input input = rlvc_learner_solver_input(agent);
     (void)redo(agent, RLVC_PHASE_MODEL, NULL);
     rlvc_solver_begin(solver, agent->config.solver);
-    return rlvc_solver_restore(solver, &solving, &agent->values, mark->word) ? RLVC_OK
-                                                                             : RLVC_E_DAMAGED;
+    return rlvc_solver_restore(solver, &input, &agent->values, mark->word) ? RLVC_OK
+                                                                           : RLVC_E_DAMAGED;
 }
 
-static rlvc_status redo_seek(rlvc_agent *agent, const rlvc_mark *mark) {
-    rlvc_solving solving = rlvc_learner_solving(agent);
+static rlvc_status redo_seek(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
+    rlvc_solver_input input = rlvc_learner_solver_input(agent);
     (void)redo(agent, RLVC_PHASE_MODEL, NULL);
-    rlvc_seeking_begin(&agent->learner.work.seeking, &solving, &agent->values);
+    rlvc_novelty_begin(&agent->learner.work.novelty, &input, &agent->values);
     return advance_to(agent, mark);
 }
 
-rlvc_status rlvc_resume(rlvc_agent *agent, const rlvc_mark *mark) {
-    static const rlvc_mark none = {{0}};
+rlvc_status rlvc_cursor_marks_resume(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
+    static const rlvc_cursor_mark none = {{0}};
     rlvc_learner *learner = &agent->learner;
-    if (learner->phase == RLVC_PHASE_SEEK)
+    if (learner->phase == RLVC_PHASE_NOVELTY)
         return redo_seek(agent, mark);
     if (learner->phase == RLVC_PHASE_SOLVE)
         return redo_solve(agent, mark);

@@ -12,21 +12,21 @@
 
 #include "../agent/state.h"
 
-#define RLVC_MARK_WORDS 10u
+#define RLVC_CURSOR_MARK_WORDS 10u
 
 /* SPEC.md says what the words are, by phase; those that a phase has no use for are 0. */
-typedef struct rlvc_mark {
-    uint32_t word[RLVC_MARK_WORDS];
-} rlvc_mark;
+typedef struct rlvc_cursor_mark {
+    uint32_t word[RLVC_CURSOR_MARK_WORDS];
+} rlvc_cursor_mark;
 
 /* The mark of the learner's cursor. O(1). */
-void rlvc_resume_mark(const rlvc_agent *agent, rlvc_mark *mark);
+void rlvc_cursor_marks_take(const rlvc_agent *agent, rlvc_cursor_mark *mark);
 
 /* Is the learner's position (all but its cursor) sound, and do ring and labels fit it? O(slots). */
-int rlvc_resume_check(const rlvc_agent *agent);
+int rlvc_cursor_marks_check(const rlvc_agent *agent);
 
 /* Brings the cursor of the learner, which has passed the check, to a mark.
  * @return RLVC_OK; RLVC_E_DAMAGED: it never gets there; RLVC_E_CALLBACK. */
-rlvc_status rlvc_resume(rlvc_agent *agent, const rlvc_mark *mark);
+rlvc_status rlvc_cursor_marks_resume(rlvc_agent *agent, const rlvc_cursor_mark *mark);
 
 #endif

@@ -153,7 +153,7 @@ static void pass_values(rlvc_stream *s, rlvc_agent *agent) {
         for (uint32_t a = 0; a < values->actions; a++) {
             size_t pair = rlvc_values_pair(values, c, a);
             rlvc_stream_float(s, &values->q[pair]);
-            rlvc_stream_float(s, &values->reward[pair]);
+            rlvc_stream_float(s, &values->pair.reward[pair]);
             rlvc_stream_u32(s, &values->tried[pair]);
         }
     }
@@ -161,16 +161,16 @@ static void pass_values(rlvc_stream *s, rlvc_agent *agent) {
 
 static void pass_explorer(rlvc_stream *s, rlvc_agent *agent) {
     rlvc_explorer *explorer = &agent->explorer;
-    rlvc_stream_u8(s, &explorer->least);
+    rlvc_stream_u8(s, &explorer->min_tried);
     rlvc_stream_u8(s, &explorer->last);
-    rlvc_stream_bytes(s, explorer->lead, agent->tree.classes);
-    rlvc_stream_bytes(s, explorer->seen, agent->tree.classes * agent->config.actions);
+    rlvc_stream_bytes(s, explorer->to_novel, agent->tree.classes);
+    rlvc_stream_bytes(s, explorer->count, agent->tree.classes * agent->config.actions);
 }
 
 /* Between two steps a learner has nothing to tell: zeros. */
-static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_mark *mark) {
+static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_cursor_mark *mark) {
     uint8_t phase = learner->phase, searching = phase ? learner->searching : 0;
-    uint32_t *field[] = {&learner->end,    &learner->at,     &learner->node, &learner->classes,
+    uint32_t *field[] = {&learner->end,    &learner->at,     &learner->walk.node, &learner->classes,
                          &learner->rounds, &learner->splits, &learner->made};
     rlvc_stream_u8(s, &phase);
     rlvc_stream_u8(s, &searching);
@@ -180,7 +180,7 @@ static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_mark *mark)
         if (s->mode == RLVC_STREAM_LOAD)
             *field[i] = number;
     }
-    for (uint32_t i = 0; i < RLVC_MARK_WORDS; i++)
+    for (uint32_t i = 0; i < RLVC_CURSOR_MARK_WORDS; i++)
         rlvc_stream_u32(s, &mark->word[i]);
     if (s->mode == RLVC_STREAM_LOAD) {
         learner->phase = phase;
@@ -189,7 +189,7 @@ static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_mark *mark)
 }
 
 /* All that comes after the identity. */
-static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_mark *mark) {
+static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_cursor_mark *mark) {
     pass_counters(s, agent);
     if (!pass_replay(s, &agent->replay) || !pass_tree(s, agent))
         return 0;
@@ -200,8 +200,8 @@ static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_mark *mark) {
 }
 
 static void pass_agent(rlvc_stream *s, rlvc_agent *agent) {
-    rlvc_mark mark;
-    rlvc_resume_mark(agent, &mark);
+    rlvc_cursor_mark mark;
+    rlvc_cursor_marks_take(agent, &mark);
     (void)pass_identity(s, &agent->domain.percept_bytes, &agent->domain.feature_bytes,
                         &agent->config);
     (void)pass_state(s, agent, &mark);
@@ -234,11 +234,11 @@ rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *dom
     return RLVC_OK;
 }
 
-/* @param least bytes that a slot must hold */
-static rlvc_status check_store(const rlvc_store *store, uint64_t least) {
+/* @param min_bytes bytes that a slot must hold */
+static rlvc_status check_store(const rlvc_store *store, uint64_t min_bytes) {
     if (!store || !store->read || !store->write)
         return RLVC_E_NULL;
-    return store->slot_bytes >= least && store->slot_bytes <= RLVC_SLOT_BYTES_MAX &&
+    return store->slot_bytes >= min_bytes && store->slot_bytes <= RLVC_SLOT_BYTES_MAX &&
                    store->slot_bytes % RLVC_STORE_UNIT == 0
                ? RLVC_OK
                : RLVC_E_RANGE;
@@ -247,8 +247,8 @@ static rlvc_status check_store(const rlvc_store *store, uint64_t least) {
 /* ------------------------------------------------------------------ saving */
 
 static rlvc_status save(rlvc_agent *agent, const rlvc_store *store) {
-    rlvc_slot newest = {1, 0, 0, 0};
-    rlvc_status status = rlvc_slots_newest(store, &newest);
+    rlvc_two_slot newest = {1, 0, 0, 0};
+    rlvc_status status = rlvc_two_slot_newest(store, &newest);
     if (status == RLVC_E_STORE)
         return status;
     if (status != RLVC_OK) { /* nothing to lose */
@@ -258,8 +258,8 @@ static rlvc_status save(rlvc_agent *agent, const rlvc_store *store) {
     rlvc_stream stream;
     rlvc_stream_count(&stream);
     pass_agent(&stream, agent);
-    rlvc_slot slot = {1u - newest.index, RLVC_SNAPSHOT_VERSION, newest.sequence + 1u,
-                      (uint32_t)rlvc_stream_size(&stream)};
+    rlvc_two_slot slot = {1u - newest.index, RLVC_SNAPSHOT_VERSION, newest.sequence + 1u,
+                          (uint32_t)rlvc_stream_size(&stream)};
     rlvc_stream_save(&stream, store, &slot);
     pass_agent(&stream, agent);
     return rlvc_stream_end(&stream);
@@ -283,8 +283,8 @@ rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store) {
 
 static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
                                rlvc_snapshot_info *info) {
-    rlvc_slot slot;
-    rlvc_status status = rlvc_slots_newest(store, &slot);
+    rlvc_two_slot slot;
+    rlvc_status status = rlvc_two_slot_newest(store, &slot);
     if (status != RLVC_OK)
         return status;
     info->version = slot.version;
@@ -327,19 +327,19 @@ static int is_sound(const rlvc_agent *agent) {
     }
     for (uint32_t c = 0; c < agent->tree.classes; c++) {
         for (uint32_t a = 0; a < agent->config.actions; a++) {
-            if (!is_number(agent->values.reward[rlvc_values_pair(&agent->values, c, a)]))
+            if (!is_number(agent->values.pair.reward[rlvc_values_pair(&agent->values, c, a)]))
                 return 0;
         }
     }
     return agent->run <= agent->step && agent->last_split <= agent->step &&
            agent->sweeps <= agent->config.max_sweeps && is_number(agent->residual) &&
            agent->interactions >= replay->stored && rlvc_agent_check(agent) == RLVC_OK &&
-           rlvc_resume_check(agent);
+           rlvc_cursor_marks_check(agent);
 }
 
 /* Fills a new agent. */
 static rlvc_status load(rlvc_stream *stream, rlvc_agent *agent) {
-    rlvc_mark mark;
+    rlvc_cursor_mark mark;
     int fits = pass_state(stream, agent, &mark);
     if (stream->status != RLVC_OK)
         return stream->status;
@@ -351,7 +351,7 @@ static rlvc_status load(rlvc_stream *stream, rlvc_agent *agent) {
     if (!is_sound(agent))
         return RLVC_E_DAMAGED;
     agent->busy = 1;
-    status = rlvc_resume(agent, &mark);
+    status = rlvc_cursor_marks_resume(agent, &mark);
     agent->busy = 0;
     return status;
 }
@@ -361,10 +361,10 @@ rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void
     if (!agent)
         return RLVC_E_NULL;
     *agent = NULL;
-    uint32_t least = 0;
-    rlvc_status status = rlvc_snapshot_size(config, domain, &least);
+    uint32_t min_bytes = 0;
+    rlvc_status status = rlvc_snapshot_size(config, domain, &min_bytes);
     if (status == RLVC_OK)
-        status = memory ? check_store(store, least) : RLVC_E_NULL;
+        status = memory ? check_store(store, min_bytes) : RLVC_E_NULL;
     rlvc_stream stream;
     rlvc_snapshot_info info;
     if (status == RLVC_OK)

@@ -17,7 +17,7 @@ static uint32_t base_of(const rlvc_store *store, uint32_t index) {
 }
 
 /* Reads a slot's head. *plausible: it begins like a snapshot that fits into the slot. */
-static rlvc_status read_head(const rlvc_store *store, uint32_t index, rlvc_slot *slot,
+static rlvc_status read_head(const rlvc_store *store, uint32_t index, rlvc_two_slot *slot,
                              int *plausible) {
     unsigned char head[HEAD_BYTES];
     if (store->read(store->ctx, base_of(store, index), head, HEAD_BYTES) != 0)
@@ -32,7 +32,7 @@ static rlvc_status read_head(const rlvc_store *store, uint32_t index, rlvc_slot 
 }
 
 /* RLVC_OK if the CRC is right, else RLVC_E_DAMAGED. */
-static rlvc_status check_whole(const rlvc_store *store, const rlvc_slot *slot) {
+static rlvc_status check_whole(const rlvc_store *store, const rlvc_two_slot *slot) {
     unsigned char unit[RLVC_STORE_UNIT];
     uint32_t crc = 0, base = base_of(store, slot->index);
     for (uint32_t at = 0; at < slot->bytes; at += RLVC_STORE_UNIT) {
@@ -45,8 +45,8 @@ static rlvc_status check_whole(const rlvc_store *store, const rlvc_slot *slot) {
                                                                           : RLVC_E_DAMAGED;
 }
 
-rlvc_status rlvc_slots_newest(const rlvc_store *store, rlvc_slot *slot) {
-    rlvc_slot heads[2];
+rlvc_status rlvc_two_slot_newest(const rlvc_store *store, rlvc_two_slot *slot) {
+    rlvc_two_slot heads[2];
     int plausible[2];
     for (uint32_t i = 0; i < 2; i++) {
         rlvc_status status = read_head(store, i, &heads[i], &plausible[i]);
@@ -84,7 +84,7 @@ uint64_t rlvc_stream_size(const rlvc_stream *stream) {
     return (stream->at + CRC_BYTES + unit - 1u) / unit * unit;
 }
 
-void rlvc_stream_save(rlvc_stream *stream, const rlvc_store *store, const rlvc_slot *slot) {
+void rlvc_stream_save(rlvc_stream *stream, const rlvc_store *store, const rlvc_two_slot *slot) {
     unsigned char head[HEAD_BYTES];
     begin(stream, RLVC_STREAM_SAVE);
     stream->store = store;
@@ -99,7 +99,7 @@ void rlvc_stream_save(rlvc_stream *stream, const rlvc_store *store, const rlvc_s
     rlvc_stream_bytes(stream, head, HEAD_BYTES);
 }
 
-void rlvc_stream_load(rlvc_stream *stream, const rlvc_store *store, const rlvc_slot *slot) {
+void rlvc_stream_load(rlvc_stream *stream, const rlvc_store *store, const rlvc_two_slot *slot) {
     unsigned char head[HEAD_BYTES];
     begin(stream, RLVC_STREAM_LOAD);
     stream->store = store;

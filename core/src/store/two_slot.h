@@ -11,16 +11,16 @@
 
 #include "rlvc/snapshot.h"
 
-typedef struct rlvc_slot {
+typedef struct rlvc_two_slot {
     uint32_t index;
     uint32_t version;
     uint32_t sequence;
     uint32_t bytes;
-} rlvc_slot;
+} rlvc_two_slot;
 
 /* Finds the newest whole snapshot; reads it from end to end.
  * @return RLVC_OK; RLVC_E_STORE; RLVC_E_EMPTY: neither slot begins as one; RLVC_E_DAMAGED. */
-rlvc_status rlvc_slots_newest(const rlvc_store *store, rlvc_slot *slot);
+rlvc_status rlvc_two_slot_newest(const rlvc_store *store, rlvc_two_slot *slot);
 
 enum { RLVC_STREAM_COUNT, RLVC_STREAM_SAVE, RLVC_STREAM_LOAD };
 
@@ -44,10 +44,10 @@ void rlvc_stream_count(rlvc_stream *stream);
 uint64_t rlvc_stream_size(const rlvc_stream *stream);
 
 /* Begins to save into a slot: erases it and passes the head. */
-void rlvc_stream_save(rlvc_stream *stream, const rlvc_store *store, const rlvc_slot *slot);
+void rlvc_stream_save(rlvc_stream *stream, const rlvc_store *store, const rlvc_two_slot *slot);
 
 /* Begins to load from a slot: passes the head, which is looked at no more. */
-void rlvc_stream_load(rlvc_stream *stream, const rlvc_store *store, const rlvc_slot *slot);
+void rlvc_stream_load(rlvc_stream *stream, const rlvc_store *store, const rlvc_two_slot *slot);
 
 /* Passes `bytes` bytes. What is loaded after a failure are zeros. */
 void rlvc_stream_bytes(rlvc_stream *stream, void *data, uint32_t bytes);

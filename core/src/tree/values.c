@@ -5,14 +5,14 @@
 void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config *config) {
     uint64_t pairs = (uint64_t)config->classes * config->actions;
     values->q = rlvc_arena_carve(arena, pairs, sizeof *values->q);
-    values->reward = rlvc_arena_carve(arena, pairs, sizeof *values->reward);
+    values->pair.reward = rlvc_arena_carve(arena, pairs, sizeof *values->pair.reward);
     values->tried = rlvc_arena_carve(arena, pairs, sizeof *values->tried);
-    values->first = rlvc_arena_carve(arena, pairs + 1u, sizeof *values->first);
+    values->begin.sample = rlvc_arena_carve(arena, pairs + 1u, sizeof *values->begin.sample);
     values->value = rlvc_arena_carve(arena, config->classes, sizeof *values->value);
     values->policy = rlvc_arena_carve(arena, config->classes, sizeof *values->policy);
     values->trial = rlvc_arena_carve(arena, config->classes, sizeof *values->trial);
     values->target = config->solver == RLVC_SOLVER_Q_LEARNING || config->solver == RLVC_SOLVER_SARSA
-                         ? values->reward
+                         ? values->pair.target
                          : values->value;
     values->actions = config->actions;
 }
@@ -20,7 +20,7 @@ void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config
 void rlvc_values_clear(rlvc_values *values) {
     for (uint32_t a = 0; a < values->actions; a++) {
         values->q[a] = 0.0f;
-        values->reward[a] = 0.0f;
+        values->pair.reward[a] = 0.0f;
         values->tried[a] = 0;
     }
     values->value[0] = 0.0f;
@@ -33,7 +33,7 @@ void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_c
         size_t to = rlvc_values_pair(values, new_class, a);
         size_t from = rlvc_values_pair(values, old_class, a);
         values->q[to] = values->q[from];
-        values->reward[to] = values->reward[from];
+        values->pair.reward[to] = values->pair.reward[from];
         values->tried[to] = values->tried[from];
     }
     values->value[new_class] = values->value[old_class];

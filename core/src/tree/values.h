@@ -6,15 +6,28 @@
 
 #include "../base/arena.h"
 
+/* Tables with more than one content, at different times. */
+typedef union rlvc_pair_floats {
+    float *reward;   /* [classes_max][actions] mean reward: from the model to the solution */
+    float *nearness; /* [classes_max] U(c): see novelty.h */
+    float *squares;  /* [classes_max][actions] while pruning: see q_variance.h */
+    float *target;   /* [classes_max] an incremental solver's copy of V */
+} rlvc_pair_floats;
+
+typedef union rlvc_pair_counts {
+    uint32_t *sample;     /* [classes_max * actions + 1] where the samples of (c, a) begin, */
+    uint32_t *transition; /* or its transitions: see rows.h */
+    uint32_t *targets;    /* [classes_max][actions] while pruning: see q_variance.h */
+} rlvc_pair_counts;
+
 typedef struct rlvc_values {
+    rlvc_pair_floats pair;
+    rlvc_pair_counts begin;
     float *q;        /* [classes_max][actions] Q(c, a) */
-    float *reward;   /* [classes_max][actions] mean reward; the batch solvers' */
-    float *target;   /* [classes_max] V as the targets of a learning step have it. A batch
-                        solver's is `value`; an incremental one's changes with each observation,
-                        so that a copy is kept, in `reward`, for which it has no use */
+    float *target;   /* [classes_max] V as the targets of a learning step have it: `value` of a
+                        batch solver; of an incremental one, whose V changes with each
+                        observation, the copy pair.target */
     uint32_t *tried; /* [classes_max][actions] interactions behind Q(c, a); 0: untried */
-    uint32_t *first; /* [classes_max * actions + 1] where the samples of (c, a) begin: see
-                        grouping.h */
     float *value;    /* [classes_max] V(c) */
     uint8_t *policy; /* [classes_max] the greedy action of the last solution */
     uint8_t *trial;  /* [classes_max] the policy under evaluation (policy iteration) */

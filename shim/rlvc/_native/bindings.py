@@ -62,17 +62,17 @@ DESCRIPTORS_POINTS_MAX = 1000
 DESCRIPTORS_DIMENSIONS_MAX = 256
 DESCRIPTORS_CANDIDATES_MAX = 65535
 DESCRIPTORS_DRAWS_MAX = 64
-FEWEST_ACTIONS_MAX = 64
-FEWEST_ROWS_MAX = 16777216
-FEWEST_FEATURES_MAX = 65535
-FEWEST_ENTRIES_MAX = 268435456
-FEWEST_EFFORT_MAX = 549755813888
 LOG_VERSION = 1
 LOG_END = 0
 LOG_HEADER = 1
 LOG_BEGIN = 2
 LOG_OBSERVE = 3
 LOG_LENGTHS = 4
+MIN_TREE_ACTIONS_MAX = 64
+MIN_TREE_ROWS_MAX = 16777216
+MIN_TREE_FEATURES_MAX = 65535
+MIN_TREE_ENTRIES_MAX = 268435456
+MIN_TREE_EFFORT_MAX = 549755813888
 SNAPSHOT_VERSION = 1
 STORE_UNIT = 64
 SLOT_BYTES_MAX = 2147483584
@@ -289,41 +289,6 @@ class ExportInfo(c.Structure):
     ]
 
 
-class FewestTask(c.Structure):
-    """``rlvc_fewest_task``."""
-
-    _fields_ = [
-        ("row", c.c_void_p),
-        ("allowed", c.c_void_p),
-        ("rows", c.c_uint32),
-        ("features", c.c_uint32),
-        ("entries", c.c_uint32),
-        ("reserved", c.c_uint32),
-        ("effort", c.c_uint64),
-    ]
-
-
-class FewestSplit(c.Structure):
-    """``rlvc_fewest_split``."""
-
-    _fields_ = [
-        ("leaf", c.c_uint32),
-        ("feature", c.c_uint32),
-    ]
-
-
-class FewestTree(c.Structure):
-    """``rlvc_fewest_tree``."""
-
-    _fields_ = [
-        ("split", c.c_void_p),
-        ("action", c.c_void_p),
-        ("leaves", c.c_uint32),
-        ("exact", c.c_uint8),
-        ("reserved", c.c_uint8 * 3),
-    ]
-
-
 LOG_WRITER_WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_uint32)
 
 
@@ -396,6 +361,41 @@ class LogReader(c.Structure):
         ("counting", c.c_uint8),
         ("linked", c.c_uint8),
         ("sequence", c.c_uint16),
+    ]
+
+
+class MinTreeTask(c.Structure):
+    """``rlvc_min_tree_task``."""
+
+    _fields_ = [
+        ("row", c.c_void_p),
+        ("allowed", c.c_void_p),
+        ("rows", c.c_uint32),
+        ("features", c.c_uint32),
+        ("entries", c.c_uint32),
+        ("reserved", c.c_uint32),
+        ("effort", c.c_uint64),
+    ]
+
+
+class MinTreeSplit(c.Structure):
+    """``rlvc_min_tree_split``."""
+
+    _fields_ = [
+        ("leaf", c.c_uint32),
+        ("feature", c.c_uint32),
+    ]
+
+
+class MinTreeResult(c.Structure):
+    """``rlvc_min_tree_result``."""
+
+    _fields_ = [
+        ("split", c.c_void_p),
+        ("action", c.c_void_p),
+        ("leaves", c.c_uint32),
+        ("exact", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
     ]
 
 
@@ -668,14 +668,14 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_split": Split,
     "rlvc_descriptors": Descriptors,
     "rlvc_export_info": ExportInfo,
-    "rlvc_fewest_task": FewestTask,
-    "rlvc_fewest_split": FewestSplit,
-    "rlvc_fewest_tree": FewestTree,
     "rlvc_log_writer": LogWriter,
     "rlvc_log_record": LogRecord,
     "rlvc_log_crc": LogCrc,
     "rlvc_log_shift": LogShift,
     "rlvc_log_reader": LogReader,
+    "rlvc_min_tree_task": MinTreeTask,
+    "rlvc_min_tree_split": MinTreeSplit,
+    "rlvc_min_tree_result": MinTreeResult,
     "rlvc_policy_config": PolicyConfig,
     "rlvc_policy_info": PolicyInfo,
     "rlvc_store": Store,
@@ -733,8 +733,6 @@ CORE: Functions = {
         c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
     ]),
     "rlvc_export_c": (c.c_int, [c.c_void_p, c.c_void_p, WRITE, c.c_void_p, c.c_void_p]),
-    "rlvc_fewest_size": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_fewest": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
     "rlvc_log_open": (c.c_int, [c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p]),
     "rlvc_log_begin": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_log_observe": (c.c_int, [c.c_void_p, Choice, c.c_float, c.c_void_p, c.c_uint8]),
@@ -742,6 +740,8 @@ CORE: Functions = {
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_uint32, c.c_void_p, c.c_void_p,
     ]),
     "rlvc_log_next": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_min_tree_size": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_min_tree": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
     "rlvc_policy_default": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_policy_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_policy_make": (c.c_int, [

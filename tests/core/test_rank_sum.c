@@ -13,7 +13,7 @@
 #include "rlvc/agent.h"
 #include "base/rng.h"
 
-#define COUNT_MAX RLVC_RANKS_MAX
+#define COUNT_MAX RLVC_RANK_SUM_MAX
 #define WORDS_MAX (COUNT_MAX / 64u)
 #define ALLOWED 4e-6
 
@@ -59,13 +59,13 @@ static double reference(uint32_t count, int plain) {
 }
 
 /* Budgets of `budget`, or random ones if that is 0. */
-static rlvc_cut scan(uint32_t count, uint32_t budget, uint64_t *work) {
-    rlvc_scan state;
+static rlvc_cutpoint scan(uint32_t count, uint32_t budget, uint64_t *work) {
+    rlvc_cutpoint_cursor state;
     *work = 0;
-    rlvc_scan_begin(&state, column, cuts, count, 1, 1e30f);
+    rlvc_cutpoint_begin(&state, column, cuts, count, 1, 1e30f);
     while (!state.done) {
         uint32_t room = budget > 0 ? budget : RLVC_BUDGET_MIN + rlvc_rng_below(&rng, 300u);
-        uint32_t used = rlvc_scan_step(&state, room);
+        uint32_t used = rlvc_cutpoint_step(&state, room);
         assert_in_range(used, 1u, room);
         *work += used;
     }
@@ -85,14 +85,15 @@ static void check(uint32_t count, const char *what) {
         present += bit_at(column, i);
     double expected = present == 0 || present == count ? -1.0 : reference(count, 0);
     for (int i = 0; i < 3; i++) {
-        rlvc_cut got = scan(count, budgets[i], &work);
+        rlvc_cutpoint got = scan(count, budgets[i], &work);
         if (!(fabs((double)got.score - expected) <= ALLOWED * (1.0 + expected)))
             fail_msg("%s, %u of %u samples, budget %u: %.9g, not %.9g", what, present, count,
                      budgets[i], (double)got.score, expected);
         assert_int_equal(got.present, present);
         first = i == 0 ? work : first;
         assert_true(work == first);
-        assert_true(work <= (count + 63u) / 64u * (RLVC_SCAN_WORD_UNITS + RLVC_SCAN_SCORE_UNITS));
+        assert_true(work <=
+                    (count + 63u) / 64u * (RLVC_CUTPOINT_WORD_UNITS + RLVC_CUTPOINT_SCORE_UNITS));
     }
 }
 

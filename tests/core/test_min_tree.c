@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "block.h"
-#include "rlvc/fewest.h"
+#include "rlvc/min_tree.h"
 #include "base/rng.h"
 
 #include <stdlib.h>
@@ -22,13 +22,13 @@
 static uint64_t memory[1u << 16];
 
 typedef struct problem {
-    rlvc_fewest_task task;
+    rlvc_min_tree_task task;
     uint64_t row[ROWS * WORDS];
     uint64_t allowed[ROWS];
 } problem;
 
 static uint32_t bit(const problem *p, uint32_t row, uint32_t feature) {
-    const uint32_t words = RLVC_FEWEST_WORDS(p->task.features);
+    const uint32_t words = RLVC_MIN_TREE_WORDS(p->task.features);
     return (uint32_t)(p->row[row * words + feature / 64u] >> feature % 64u) & 1u;
 }
 
@@ -56,7 +56,7 @@ static uint32_t reference(const problem *p, uint32_t rows) {
 }
 
 /* Fails unless every row ends in a leaf whose action it allows. */
-static void check_tree(const problem *p, const rlvc_fewest_tree *tree) {
+static void check_tree(const problem *p, const rlvc_min_tree_result *tree) {
     for (uint32_t i = 0; i < p->task.rows; i++) {
         uint32_t leaf = 0;
         for (uint32_t j = 0; j + 1u < tree->leaves; j++) {
@@ -69,12 +69,12 @@ static void check_tree(const problem *p, const rlvc_fewest_tree *tree) {
 }
 
 /* Solves in a block of just the size, behind which nothing is touched. */
-static rlvc_status solve(const problem *p, rlvc_fewest_tree *tree) {
+static rlvc_status solve(const problem *p, rlvc_min_tree_result *tree) {
     size_t bytes = 0;
-    assert_int_equal(rlvc_fewest_size(&p->task, &bytes), RLVC_OK);
+    assert_int_equal(rlvc_min_tree_size(&p->task, &bytes), RLVC_OK);
     assert_true(bytes + sizeof *memory <= sizeof memory);
     block_fill(memory, CANARY, bytes + sizeof *memory);
-    const rlvc_status status = rlvc_fewest(&p->task, memory, bytes, tree);
+    const rlvc_status status = rlvc_min_tree(&p->task, memory, bytes, tree);
     for (size_t i = 0; i < sizeof *memory; i++)
         assert_int_equal(((const unsigned char *)memory)[bytes + i], CANARY);
     return status;
@@ -90,7 +90,7 @@ static void draw(problem *p, rlvc_rng *rng, uint32_t used, uint32_t apart, uint3
     p->task.features = used * apart;
     p->task.entries = 512;
     p->task.effort = AMPLE;
-    const uint32_t words = RLVC_FEWEST_WORDS(p->task.features);
+    const uint32_t words = RLVC_MIN_TREE_WORDS(p->task.features);
     for (uint32_t i = 0; i < p->task.rows; i++) {
         for (uint32_t f = 0; f < used; f++) {
             const uint32_t column = f * apart + apart / 2u;
@@ -110,7 +110,7 @@ static void test_against_the_recursion(void **unused) {
     rlvc_rng_seed(&rng, 5);
     for (uint32_t k = 0; k < 600; k++) {
         problem p;
-        rlvc_fewest_tree tree;
+        rlvc_min_tree_result tree;
         const uint32_t used = rlvc_rng_below(&rng, 6), apart = k % 3u == 2u ? 31u : 1u;
         draw(&p, &rng, used, apart, 2u + rlvc_rng_below(&rng, 4));
         const uint32_t fewest = reference(&p, (1u << p.task.rows) - 1u);
@@ -142,7 +142,7 @@ static void test_against_the_recursion(void **unused) {
 static void test_parity(void **unused) {
     (void)unused;
     problem p;
-    rlvc_fewest_tree tree;
+    rlvc_min_tree_result tree;
     memset(&p, 0, sizeof p);
     p.task.row = p.row;
     p.task.allowed = p.allowed;
@@ -162,31 +162,31 @@ static void test_parity(void **unused) {
 
 static void refuse(const problem *p, rlvc_status expected) {
     size_t bytes = 1;
-    rlvc_fewest_tree tree;
-    assert_int_equal(rlvc_fewest_size(&p->task, &bytes), expected);
+    rlvc_min_tree_result tree;
+    assert_int_equal(rlvc_min_tree_size(&p->task, &bytes), expected);
     assert_int_equal(bytes, 0);
-    assert_int_equal(rlvc_fewest(&p->task, memory, sizeof memory, &tree), expected);
+    assert_int_equal(rlvc_min_tree(&p->task, memory, sizeof memory, &tree), expected);
 }
 
 static void test_refusals(void **unused) {
     (void)unused;
     problem p, q;
     rlvc_rng rng;
-    rlvc_fewest_tree tree;
+    rlvc_min_tree_result tree;
     size_t bytes = 0;
     rlvc_rng_seed(&rng, 1);
     draw(&p, &rng, 5, 1, 2);
-    assert_int_equal(rlvc_fewest_size(NULL, &bytes), RLVC_E_NULL);
-    assert_int_equal(rlvc_fewest_size(&p.task, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_fewest(NULL, memory, sizeof memory, &tree), RLVC_E_NULL);
-    assert_int_equal(rlvc_fewest(&p.task, NULL, sizeof memory, &tree), RLVC_E_NULL);
-    assert_int_equal(rlvc_fewest(&p.task, memory, sizeof memory, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree_size(NULL, &bytes), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree_size(&p.task, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree(NULL, memory, sizeof memory, &tree), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree(&p.task, NULL, sizeof memory, &tree), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree(&p.task, memory, sizeof memory, NULL), RLVC_E_NULL);
     q = p;
     q.task.row = NULL;
-    assert_int_equal(rlvc_fewest(&q.task, memory, sizeof memory, &tree), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree(&q.task, memory, sizeof memory, &tree), RLVC_E_NULL);
     q = p;
     q.task.allowed = NULL;
-    assert_int_equal(rlvc_fewest(&q.task, memory, sizeof memory, &tree), RLVC_E_NULL);
+    assert_int_equal(rlvc_min_tree(&q.task, memory, sizeof memory, &tree), RLVC_E_NULL);
 #define REFUSED(field, value)                                                                      \
     do {                                                                                           \
         q = p;                                                                                     \
@@ -194,24 +194,24 @@ static void test_refusals(void **unused) {
         refuse(&q, RLVC_E_RANGE);                                                                  \
     } while (0)
     REFUSED(rows, 0);
-    REFUSED(rows, RLVC_FEWEST_ROWS_MAX + 1u);
-    REFUSED(features, RLVC_FEWEST_FEATURES_MAX + 1u);
+    REFUSED(rows, RLVC_MIN_TREE_ROWS_MAX + 1u);
+    REFUSED(features, RLVC_MIN_TREE_FEATURES_MAX + 1u);
     REFUSED(entries, 1);
-    REFUSED(entries, RLVC_FEWEST_ENTRIES_MAX + 1u);
+    REFUSED(entries, RLVC_MIN_TREE_ENTRIES_MAX + 1u);
     REFUSED(reserved, 1);
     REFUSED(effort, 0);
-    REFUSED(effort, RLVC_FEWEST_EFFORT_MAX + 1u);
+    REFUSED(effort, RLVC_MIN_TREE_EFFORT_MAX + 1u);
     q = p;
     q.task.row = q.row;
     q.task.allowed = q.allowed;
     q.allowed[q.task.rows - 1u] = 0;
-    assert_int_equal(rlvc_fewest(&q.task, memory, sizeof memory, &tree), RLVC_E_RANGE);
+    assert_int_equal(rlvc_min_tree(&q.task, memory, sizeof memory, &tree), RLVC_E_RANGE);
     q.allowed[q.task.rows - 1u] = 1;
     q.row[q.task.rows - 1u] |= 1u << 5;
-    assert_int_equal(rlvc_fewest(&q.task, memory, sizeof memory, &tree), RLVC_E_RANGE);
-    assert_int_equal(rlvc_fewest_size(&p.task, &bytes), RLVC_OK);
-    assert_int_equal(rlvc_fewest(&p.task, memory, bytes - 1u, &tree), RLVC_E_MEMORY);
-    assert_int_equal(rlvc_fewest(&p.task, (unsigned char *)memory + 4, bytes, &tree),
+    assert_int_equal(rlvc_min_tree(&q.task, memory, sizeof memory, &tree), RLVC_E_RANGE);
+    assert_int_equal(rlvc_min_tree_size(&p.task, &bytes), RLVC_OK);
+    assert_int_equal(rlvc_min_tree(&p.task, memory, bytes - 1u, &tree), RLVC_E_MEMORY);
+    assert_int_equal(rlvc_min_tree(&p.task, (unsigned char *)memory + 4, bytes, &tree),
                      RLVC_E_MEMORY);
 }
 
@@ -219,9 +219,9 @@ static void test_refusals(void **unused) {
 static void test_nothing_to_tell_apart(void **unused) {
     (void)unused;
     const uint64_t allowed[] = {3, 2, 6};
-    rlvc_fewest_task task = {NULL, allowed, 3, 0, 2, 0, 1};
-    rlvc_fewest_tree tree;
-    assert_int_equal(rlvc_fewest(&task, memory, sizeof memory, &tree), RLVC_OK);
+    rlvc_min_tree_task task = {NULL, allowed, 3, 0, 2, 0, 1};
+    rlvc_min_tree_result tree;
+    assert_int_equal(rlvc_min_tree(&task, memory, sizeof memory, &tree), RLVC_OK);
     assert_int_equal(tree.leaves, 1);
     assert_int_equal(tree.exact, 1);
     assert_int_equal(tree.action[0], 1);
@@ -234,9 +234,10 @@ static void test_no_features(void **unused) {
     const uint64_t allowed[] = {1, 2, 1};
     unsigned char *nothing = malloc(1);
     for (uint32_t i = 0; i < 2; i++) {
-        rlvc_fewest_task task = {i ? (const uint64_t *)nothing : NULL, allowed, 3, 0, 16, 0, 1000};
-        rlvc_fewest_tree tree;
-        assert_int_equal(rlvc_fewest(&task, memory, sizeof memory, &tree), RLVC_E_RANGE);
+        rlvc_min_tree_task task = {
+            i ? (const uint64_t *)nothing : NULL, allowed, 3, 0, 16, 0, 1000};
+        rlvc_min_tree_result tree;
+        assert_int_equal(rlvc_min_tree(&task, memory, sizeof memory, &tree), RLVC_E_RANGE);
     }
     free(nothing);
 }

@@ -3,8 +3,8 @@
  * set of allowed actions, the binary tree of the fewest leaves in which every row ends in a leaf
  * whose action it allows. (Section 7 asks for "techniques to remove learned features that are
  * subsequently proved useless".) Knows nothing of agents: rlvc/policy.h brings the two together. */
-#ifndef RLVC_FEWEST_H
-#define RLVC_FEWEST_H
+#ifndef RLVC_MIN_TREE_H
+#define RLVC_MIN_TREE_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -15,62 +15,62 @@
 extern "C" {
 #endif
 
-#define RLVC_FEWEST_ACTIONS_MAX 64u
-#define RLVC_FEWEST_ROWS_MAX (1u << 24)
-#define RLVC_FEWEST_FEATURES_MAX 65535u
-#define RLVC_FEWEST_ENTRIES_MAX (1u << 28)
-#define RLVC_FEWEST_EFFORT_MAX ((uint64_t)1 << 39)
+#define RLVC_MIN_TREE_ACTIONS_MAX 64u
+#define RLVC_MIN_TREE_ROWS_MAX (1u << 24)
+#define RLVC_MIN_TREE_FEATURES_MAX 65535u
+#define RLVC_MIN_TREE_ENTRIES_MAX (1u << 28)
+#define RLVC_MIN_TREE_EFFORT_MAX ((uint64_t)1 << 39)
 
 /* Words of a row. */
-#define RLVC_FEWEST_WORDS(features) (((uint32_t)(features) + 63u) / 64u)
+#define RLVC_MIN_TREE_WORDS(features) (((uint32_t)(features) + 63u) / 64u)
 
 /* The rows, and how much may be spent on them. */
-typedef struct rlvc_fewest_task {
+typedef struct rlvc_min_tree_task {
     const uint64_t *row;     /* [rows][words] feature f is bit f % 64 of word f / 64 of a row; the
                                 bits from `features` on are 0 */
     const uint64_t *allowed; /* [rows] bit a: action a is allowed. Not 0 */
-    uint32_t rows;           /* [1, RLVC_FEWEST_ROWS_MAX] */
-    uint32_t features;       /* [0, RLVC_FEWEST_FEATURES_MAX] */
-    uint32_t entries;        /* of the table of subsets, [2, RLVC_FEWEST_ENTRIES_MAX]; only the
+    uint32_t rows;           /* [1, RLVC_MIN_TREE_ROWS_MAX] */
+    uint32_t features;       /* [0, RLVC_MIN_TREE_FEATURES_MAX] */
+    uint32_t entries;        /* of the table of subsets, [2, RLVC_MIN_TREE_ENTRIES_MAX]; only the
                                 greatest power of two in it is used, and of that seven eighths */
     uint32_t reserved;       /* 0 */
     uint64_t effort;         /* words looked at, at most about so many for the whole, and for a
-                                part of the rows in proportion, [1, RLVC_FEWEST_EFFORT_MAX] */
-} rlvc_fewest_task;
+                                part of the rows in proportion, [1, RLVC_MIN_TREE_EFFORT_MAX] */
+} rlvc_min_tree_task;
 
 /* A split of leaf `leaf`: rows without the feature stay in it, those with it get the next new
  * leaf. */
-typedef struct rlvc_fewest_split {
+typedef struct rlvc_min_tree_split {
     uint32_t leaf;
     uint32_t feature;
-} rlvc_fewest_split;
+} rlvc_min_tree_split;
 
 /* The tree. It begins as leaf 0, and its splits are to be made in their order. */
-typedef struct rlvc_fewest_tree {
-    const rlvc_fewest_split *split; /* [leaves - 1] split j makes leaf j + 1 */
-    const uint8_t *action;          /* [leaves] the lowest that all its rows allow */
+typedef struct rlvc_min_tree_result {
+    const rlvc_min_tree_split *split; /* [leaves - 1] split j makes leaf j + 1 */
+    const uint8_t *action;            /* [leaves] the lowest that all its rows allow */
     uint32_t leaves;
     uint8_t exact; /* 1: no tree has fewer; 0: the table or the effort did not suffice for all of
                       the rows, so that those were parted greedily until it did */
     uint8_t reserved[3];
-} rlvc_fewest_tree;
+} rlvc_min_tree_result;
 
-/* The exact size of the block that rlvc_fewest needs: of the order of entries * (8 + 16 * words) +
- * 20 * rows + 70 * features bytes. O(1).
+/* The exact size of the block that rlvc_min_tree needs: of the order of entries * (8 + 16 * words)
+ * + 20 * rows + 70 * features bytes. O(1).
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or RLVC_E_MEMORY if no size_t
  * holds the size: *bytes is then 0. */
-RLVC_API rlvc_status rlvc_fewest_size(const rlvc_fewest_task *task, size_t *bytes);
+RLVC_API rlvc_status rlvc_min_tree_size(const rlvc_min_tree_task *task, size_t *bytes);
 
 /* Finds the tree. Dynamic programming over the subsets of rows that tests can reach (there are at
  * most 3^features, and of most no need, as a lower bound of what they take is known), each solved
  * once and kept in the table. Where the table or the effort does not suffice, the rows are parted
  * by the feature that purifies best (Gini), and each part is tried again. O(effort * depth) at
  * worst.
- * @param memory aligned to 8; `bytes` of it, rlvc_fewest_size or more. The tree lies in it
+ * @param memory aligned to 8; `bytes` of it, rlvc_min_tree_size or more. The tree lies in it
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or two rows that are alike in
  * every feature allow no common action; RLVC_E_MEMORY. */
-RLVC_API rlvc_status rlvc_fewest(const rlvc_fewest_task *task, void *memory, size_t bytes,
-                                 rlvc_fewest_tree *tree);
+RLVC_API rlvc_status rlvc_min_tree(const rlvc_min_tree_task *task, void *memory, size_t bytes,
+                                   rlvc_min_tree_result *tree);
 
 #ifdef __cplusplus
 }

@@ -16,7 +16,7 @@ from ..errors import ArrayError, BlockError, RangeError
 _byref = ctypes.byref
 
 
-class Fewest(NamedTuple):
+class MinTree(NamedTuple):
     """A tree of the fewest leaves.
 
     Attributes
@@ -36,13 +36,13 @@ class Fewest(NamedTuple):
     actions: npt.NDArray[np.uint8]
 
 
-def fewest(
+def min_tree(
     rows: npt.NDArray[np.bool_],
     allowed: npt.NDArray[np.bool_],
     *,
     entries: int = 1 << 20,
     effort: int = 1 << 30,
-) -> Fewest:
+) -> MinTree:
     """Find the binary tree of the fewest leaves in which every row ends where an allowed action is done.
 
     Parameters
@@ -58,7 +58,7 @@ def fewest(
 
     Returns
     -------
-    Fewest
+    MinTree
 
     Raises
     ------
@@ -73,14 +73,14 @@ def fewest(
     Notes
     -----
     What a policy could be at best, when it is known what is optimal in each state: for what an
-    agent has learnt, see :meth:`rlvc.Agent.compact`. Source: ``core/include/rlvc/fewest.h``.
+    agent has learnt, see :meth:`rlvc.Agent.compact`. Source: ``core/include/rlvc/min_tree.h``.
 
     Examples
     --------
     Action 1 is needed where both features are there:
 
     >>> both = np.array([[0, 0], [0, 1], [1, 0], [1, 1]], bool)
-    >>> fewest(both, np.array([[1, 0], [1, 0], [1, 0], [0, 1]], bool)).leaves
+    >>> min_tree(both, np.array([[1, 0], [1, 0], [1, 0], [0, 1]], bool)).leaves
     3
     """
     rows, allowed = np.asarray(rows), np.asarray(allowed)
@@ -92,16 +92,16 @@ def fewest(
     entries = whole("entries", entries, 1, 2**28, RangeError)
     effort = whole("effort", effort, 1, 2**39, RangeError)
     words, sets = _packed(rows), _packed(allowed)
-    task = _native.FewestTask(words.ctypes.data, sets.ctypes.data, *rows.shape, entries, 0, effort)
-    size, tree = ctypes.c_size_t(), _native.FewestTree()
-    status = _native.call.rlvc_fewest_size(_byref(task), _byref(size))
+    task = _native.MinTreeTask(words.ctypes.data, sets.ctypes.data, *rows.shape, entries, 0, effort)
+    size, tree = ctypes.c_size_t(), _native.MinTreeResult()
+    status = _native.call.rlvc_min_tree_size(_byref(task), _byref(size))
     if status == _native.OK:
         try:
             block = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
             raise BlockError(f"no memory for a block of {size.value} bytes") from None
         place = (block.ctypes.data, size.value)
-        status = _native.long_call.rlvc_fewest(_byref(task), *place, _byref(tree))
+        status = _native.long_call.rlvc_min_tree(_byref(task), *place, _byref(tree))
     if status != _native.OK:
         raise RangeError(
             "rows and entries are at least 1 and 2, every row allows an action, "
@@ -111,7 +111,7 @@ def fewest(
     ctypes.memmove(splits.ctypes.data, tree.split, splits.nbytes)
     actions = np.zeros(tree.leaves, np.uint8)
     ctypes.memmove(actions.ctypes.data, tree.action, actions.nbytes)
-    return Fewest(tree.leaves, bool(tree.exact), splits, actions)
+    return MinTree(tree.leaves, bool(tree.exact), splits, actions)
 
 
 def _packed(bits: npt.NDArray[np.bool_]) -> npt.NDArray[np.uint64]:

@@ -21,8 +21,9 @@
 static history list;
 static rlvc_replay replay;
 static rlvc_values values;
-static rlvc_aliasing aliasing;
-static rlvc_sample sample[CAPACITY];
+static rlvc_target_input aliasing;
+static rlvc_sample samples[CAPACITY];
+static rlvc_rows rows = {samples};
 static uint64_t values_block[512];
 static uint64_t scratch[RLVC_SORT_SCRATCH_BYTES / sizeof(uint64_t)];
 
@@ -62,7 +63,7 @@ static void make_database(uint32_t seed, uint32_t interactions, int gaps) {
     aliasing.returns.replay = &replay;
     aliasing.returns.end = rlvc_replay_freeze(&replay);
     aliasing.values = &values;
-    aliasing.kind = RLVC_KEY_SUCCESSOR;
+    aliasing.kind = RLVC_TARGET_SUCCESSOR;
 }
 
 static void count_plainly(void) {
@@ -84,10 +85,10 @@ static void count_plainly(void) {
 }
 
 static void build_model(uint32_t budget) {
-    rlvc_model model;
+    rlvc_model_cursor model;
     rlvc_model_begin(&model, PAIRS);
     while (!model.done) {
-        uint32_t used = rlvc_model_step(&model, &aliasing, &values, sample, scratch, budget);
+        uint32_t used = rlvc_model_step(&model, &aliasing, &values, rows, scratch, budget);
         assert_in_range(used, 1, budget);
     }
 }
@@ -103,17 +104,20 @@ static void test_model(void **state) {
         for (uint32_t pair = 0; pair < PAIRS; pair++) {
             double left = tried[pair];
             uint32_t last = 0;
-            for (uint32_t t = values.first[pair]; t < values.first[pair + 1u]; t++) {
-                uint32_t next = sample[t].key == RLVC_NO_CLASS ? CLASSES : sample[t].key;
-                assert_true((double)sample[t].slot == transitions[pair][next]);
-                assert_true(t == values.first[pair] || sample[t].key > last);
-                last = sample[t].key;
-                left -= (double)sample[t].slot;
+            for (uint32_t t = values.begin.transition[pair]; t < values.begin.transition[pair + 1u];
+                 t++) {
+                uint32_t next =
+                    rows.transition[t].next == RLVC_NO_CLASS ? CLASSES : rows.transition[t].next;
+                assert_true((double)rows.transition[t].count == transitions[pair][next]);
+                assert_true(t == values.begin.transition[pair] || rows.transition[t].next > last);
+                last = rows.transition[t].next;
+                left -= (double)rows.transition[t].count;
             }
             assert_true(left == 0.0);
             assert_true((double)values.tried[pair] == tried[pair]);
             if (tried[pair] > 0.0)
-                assert_true(fabs((double)values.reward[pair] - reward[pair] / tried[pair]) < 1e-5);
+                assert_true(fabs((double)values.pair.reward[pair] - reward[pair] / tried[pair]) <
+                            1e-5);
         }
     }
 }
@@ -139,13 +143,13 @@ static void solve_plainly(double v[CLASSES], double discount) {
         }
 }
 
-static rlvc_solver solve(uint8_t kind, float discount, float tolerance, uint32_t sweeps,
-                         uint32_t slice) {
-    rlvc_solver solver;
-    const rlvc_solving solving = {sample, CLASSES, sweeps, discount, tolerance};
+static rlvc_solver_cursor solve(uint8_t kind, float discount, float tolerance, uint32_t sweeps,
+                                uint32_t slice) {
+    rlvc_solver_cursor solver;
+    const rlvc_solver_input input = {rows.transition, CLASSES, sweeps, discount, tolerance};
     rlvc_solver_begin(&solver, kind);
     while (!solver.done)
-        assert_in_range(rlvc_solver_step(&solver, &solving, &values, slice), 1, slice);
+        assert_in_range(rlvc_solver_step(&solver, &input, &values, slice), 1, slice);
     return solver;
 }
 
@@ -156,7 +160,7 @@ static void check_solution(uint32_t seed, uint8_t kind, float discount) {
     for (uint32_t slice = 1; slice < 1000u; slice = slice * 9u + 1u) {
         make_values();
         build_model(RLVC_BUDGET_MIN);
-        rlvc_solver solver = solve(kind, discount, tolerance, 100000, slice);
+        rlvc_solver_cursor solver = solve(kind, discount, tolerance, 100000, slice);
         assert_true(solver.sweeps < 100000);
         memcpy(slice == 1u ? first : values.value, values.value, sizeof first);
         assert_memory_equal(values.value, first, sizeof first);
@@ -199,7 +203,7 @@ static void test_no_discount(void **state) {
             replay.reward[slot] = -1.0f;
         count_plainly();
         build_model(RLVC_BUDGET_UNBOUNDED);
-        rlvc_solver solver = solve(kind, 1.0f, 1e-4f, 5000, 7);
+        rlvc_solver_cursor solver = solve(kind, 1.0f, 1e-4f, 5000, 7);
         solve_plainly(v, 1.0);
         assert_true(solver.residual <= 1e-4f);
         for (uint32_t c = 0; c < CLASSES; c++)
@@ -219,7 +223,7 @@ static void test_the_end(void **state) {
         for (uint32_t sweeps = 1; sweeps < 5u; sweeps++) {
             make_values();
             build_model(RLVC_BUDGET_UNBOUNDED);
-            rlvc_solver solver = solve(kind, 0.99f, 1e-3f, sweeps, 1);
+            rlvc_solver_cursor solver = solve(kind, 0.99f, 1e-3f, sweeps, 1);
             assert_int_equal(solver.sweeps, sweeps);
             assert_true(solver.residual > 0.0f);
         }
@@ -246,24 +250,24 @@ static void test_forgotten_interactions(void **state) {
 
 /* ------------------------------------------------------------------ what was little tried */
 
-static uint8_t seen[PAIRS];
-static uint8_t lead[CLASSES];
-static rlvc_explorer explorer = {seen, lead, 0, RLVC_NO_ACTION};
+static uint8_t count[PAIRS];
+static uint8_t to_novel[CLASSES];
+static rlvc_explorer explorer = {count, to_novel, 0, RLVC_NO_ACTION};
 
-static rlvc_seeking seek_with(uint32_t max_sweeps, uint32_t slice) {
-    rlvc_seeking seeking;
-    const rlvc_solving solving = {sample, CLASSES, max_sweeps, 0.9f, 1e-3f};
-    rlvc_seeking_begin(&seeking, &solving, &values);
-    while (!seeking.done)
-        assert_in_range(rlvc_seeking_step(&seeking, &solving, &values, &explorer, slice), 1, slice);
-    return seeking;
+static rlvc_novelty_cursor find_novelty(uint32_t max_sweeps, uint32_t slice) {
+    rlvc_novelty_cursor novelty;
+    const rlvc_solver_input input = {rows.transition, CLASSES, max_sweeps, 0.9f, 1e-3f};
+    rlvc_novelty_begin(&novelty, &input, &values);
+    while (!novelty.done)
+        assert_in_range(rlvc_novelty_step(&novelty, &input, &values, &explorer, slice), 1, slice);
+    return novelty;
 }
 
 static double plain_nearness(uint32_t pair, const double u[CLASSES]) {
     double sum = 0.0;
     for (uint32_t next = 0; next < CLASSES; next++)
         sum += transitions[pair][next] * u[next];
-    return tried[pair] < (double)explorer.least ? 1.0 : 0.95 * sum / tried[pair];
+    return tried[pair] < (double)explorer.min_tried ? 1.0 : 0.95 * sum / tried[pair];
 }
 
 /* What is found is at most the true nearness, and no more below it than ignored changes add up
@@ -276,23 +280,23 @@ static void check_nearness(uint32_t seed) {
             for (uint32_t a = 0; a < HISTORY_ACTIONS; a++)
                 u[c] = fmax(u[c], plain_nearness(c * HISTORY_ACTIONS + a, u));
     for (uint32_t c = 0; c < CLASSES; c++) {
-        double found = (double)values.reward[c];
-        int leads = lead[c] != RLVC_NO_ACTION;
+        double found = (double)values.pair.nearness[c];
+        int leads = to_novel[c] != RLVC_NO_ACTION;
         int right = leads == (found > 0.001 && found < 1.0);
         if (leads)
-            right = right && lead[c] < HISTORY_ACTIONS &&
-                    plain_nearness(c * HISTORY_ACTIONS + lead[c], u) >= u[c] - ignored;
+            right = right && to_novel[c] < HISTORY_ACTIONS &&
+                    plain_nearness(c * HISTORY_ACTIONS + to_novel[c], u) >= u[c] - ignored;
         if (!right || found > u[c] + 1e-5 || found < u[c] - ignored)
             fail_msg("seed %u, m = %u: class %u is at %g by action %u, not at %g", seed,
-                     explorer.least, c, found, lead[c], u[c]);
+                     explorer.min_tried, c, found, to_novel[c], u[c]);
         for (uint32_t a = 0; a < HISTORY_ACTIONS; a++) {
             uint32_t pair = c * HISTORY_ACTIONS + a;
-            assert_int_equal(seen[pair], tried[pair] < 255.0 ? (int)tried[pair] : 255);
+            assert_int_equal(count[pair], tried[pair] < 255.0 ? (int)tried[pair] : 255);
         }
     }
 }
 
-static void test_seeking(void **state) {
+static void test_novelty(void **state) {
     (void)state;
     uint32_t leading = 0, others = 0;
     for (uint32_t seed = 1; seed < 9u; seed++) {
@@ -301,18 +305,19 @@ static void test_seeking(void **state) {
         count_plainly();
         for (uint32_t m = 0; m < 30u; m += 1u + m / 4u) {
             float first[CLASSES];
-            explorer.least = (uint8_t)m;
+            explorer.min_tried = (uint8_t)m;
             for (uint32_t slice = 1; slice < 1000u; slice = slice * 9u + 1u) {
                 build_model(RLVC_BUDGET_MIN);
-                rlvc_seeking seeking = seek_with(10000, slice);
-                assert_true(seeking.sweeps < 10000);
-                memcpy(slice == 1u ? first : values.reward, values.reward, sizeof first);
-                assert_memory_equal(values.reward, first, sizeof first);
+                rlvc_novelty_cursor novelty = find_novelty(10000, slice);
+                assert_true(novelty.sweeps < 10000);
+                memcpy(slice == 1u ? first : values.pair.nearness, values.pair.nearness,
+                       sizeof first);
+                assert_memory_equal(values.pair.nearness, first, sizeof first);
             }
             check_nearness(seed);
             for (uint32_t c = 0; c < CLASSES; c++) {
-                leading += lead[c] != RLVC_NO_ACTION;
-                others += lead[c] == RLVC_NO_ACTION;
+                leading += to_novel[c] != RLVC_NO_ACTION;
+                others += to_novel[c] == RLVC_NO_ACTION;
             }
         }
     }
@@ -320,21 +325,21 @@ static void test_seeking(void **state) {
 }
 
 /* Sweeps run out; and a table of counts that is not there is not written. */
-static void test_seeking_briefly(void **state) {
+static void test_novelty_briefly(void **state) {
     (void)state;
     make_values();
     make_database(4, 300, 0);
     count_plainly();
-    explorer.least = 14;
-    memset(seen, 77, sizeof seen);
-    explorer.seen = NULL;
+    explorer.min_tried = 14;
+    memset(count, 77, sizeof count);
+    explorer.count = NULL;
     for (uint32_t sweeps = 1; sweeps < 3u; sweeps++) {
         build_model(RLVC_BUDGET_UNBOUNDED);
-        assert_int_equal(seek_with(sweeps, 5).sweeps, sweeps);
+        assert_int_equal(find_novelty(sweeps, 5).sweeps, sweeps);
     }
-    explorer.seen = seen;
+    explorer.count = count;
     for (uint32_t pair = 0; pair < PAIRS; pair++)
-        assert_int_equal(seen[pair], 77);
+        assert_int_equal(count[pair], 77);
 }
 
 int main(void) {
@@ -344,8 +349,8 @@ int main(void) {
         cmocka_unit_test(test_no_discount),
         cmocka_unit_test(test_the_end),
         cmocka_unit_test(test_forgotten_interactions),
-        cmocka_unit_test(test_seeking),
-        cmocka_unit_test(test_seeking_briefly),
+        cmocka_unit_test(test_novelty),
+        cmocka_unit_test(test_novelty_briefly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
