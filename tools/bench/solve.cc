@@ -17,7 +17,7 @@ struct Process {
     rlvc_config config = {};
     std::vector<uint64_t> block;
     rlvc_values values;
-    std::vector<rlvc_sample> transitions;
+    std::vector<rlvc_transition> transitions;
 
     Process(uint32_t classes, uint32_t actions) {
         config.classes = classes;
@@ -31,20 +31,19 @@ struct Process {
         Random random(1);
         const uint32_t pairs = classes * actions;
         for (uint32_t pair = 0; pair < pairs; pair++) {
-            values.first[pair] = pair * transitions_a_pair;
+            values.begin.transition[pair] = pair * transitions_a_pair;
             values.tried[pair] = 2 * transitions_a_pair;
-            values.reward[pair] = static_cast<float>(random() % 100) - 50;
+            values.pair.reward[pair] = static_cast<float>(random() % 100) - 50;
             for (uint32_t i = 0; i < transitions_a_pair; i++)
                 transitions.push_back({static_cast<uint32_t>(random() % classes), 2});
         }
-        values.first[pairs] = pairs * transitions_a_pair;
+        values.begin.transition[pairs] = pairs * transitions_a_pair;
     }
 
     // All values from 0; returns the sweeps.
     uint32_t solve() {
         std::fill(values.value, values.value + config.classes, 0.0F);
-        const rlvc_solver_input input = {
-            transitions.data(), config.classes, 10000, 0.9F, 0.01F, 0, nullptr};
+        const rlvc_solver_input input = {transitions.data(), config.classes, 10000, 0.9F, 0.01F};
         rlvc_solver_cursor solver;
         rlvc_solver_begin(&solver, RLVC_SOLVER_VALUE_ITERATION);
         while (!solver.done)
@@ -61,7 +60,7 @@ void run_solve(benchmark::State &state) {
     for (auto _ : state)
         sweeps += process.solve();
     const int64_t transitions = sweeps * pairs * transitions_a_pair;
-    state.SetBytesProcessed(transitions * static_cast<int64_t>(sizeof(rlvc_sample)));
+    state.SetBytesProcessed(transitions * static_cast<int64_t>(sizeof(rlvc_transition)));
     state.counters["a_transition"] =
         benchmark::Counter(static_cast<double>(transitions),
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
