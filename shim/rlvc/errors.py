@@ -81,6 +81,10 @@ class MetricError(Error, ValueError):
     """A metric is missing, corrupt, made for other vectors, or cannot be fitted."""
 
 
+class EnvError(Error, ValueError):
+    """An environment returned what Gymnasium's interface does not allow, or is no environment."""
+
+
 class SpaceError(Error, TypeError):
     """Observations of this space cannot be encoded, or its actions are not finite."""
 

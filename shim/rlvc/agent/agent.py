@@ -168,6 +168,8 @@ class Agent(Queries):
                 packed,
                 1 if terminated else 2 if truncated else 0,
             )
+        except ValueError:
+            raise RangeError("terminated and truncated must be True or False") from None
         except ctypes.ArgumentError:
             raise RewardError(f"a reward must be a number, not {reward!r:.80}") from None
         if status:
@@ -444,6 +446,8 @@ class Agent(Queries):
         SnapshotError
             It is corrupt, or has another version, config or domain.
         """
+        if not isinstance(snapshot, bytes | bytearray | memoryview):
+            raise SnapshotError(f"a snapshot is bytes, not {type(snapshot).__name__}")
         agent = cls.__new__(cls)
         agent._make(domain, config, {}, bytes(snapshot))
         return agent

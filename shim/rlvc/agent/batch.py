@@ -187,6 +187,10 @@ class Batch:
         self._native.count = number
         self._taken = count
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Refuse to be pickled."""
+        raise TypeError("a batch is not pickled: pickle the agent, and call its batch() again")
+
     def act(self, count: int | None = None) -> npt.NDArray[Any]:
         """Choose an action for each environment.
 

@@ -120,7 +120,10 @@ class Config:
         Config
             The copy.
         """
-        return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
+        try:
+            return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
+        except TypeError as error:
+            raise ConfigError(f"no such field: {error}") from None
 
 
 def _native_value(field: str, kind: object, value: object) -> object:

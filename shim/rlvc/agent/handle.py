@@ -76,10 +76,7 @@ class Handle:
         if not isinstance(config, Config):
             config = Config(actions=whole("actions", config, 1, 255))
         if changes:
-            try:
-                config = config.replace(**changes)
-            except TypeError as error:
-                raise ConfigError(f"no such field: {error}") from None
+            config = config.replace(**changes)
         self._domain = domain
         self._config = config
         self._guard = Guard()
@@ -171,7 +168,7 @@ class Handle:
             ``form`` is unknown.
         """
         forms = {"text": _native.PRINT_TEXT, "dot": _native.PRINT_DOT, "json": _native.PRINT_JSON}
-        if form not in forms:
+        if not isinstance(form, str) or form not in forms:
             raise RangeError(f"form: {form!r} is not one of {', '.join(forms)}")
         return self._written(self._print, forms[form])
 

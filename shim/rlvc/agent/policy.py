@@ -147,6 +147,10 @@ class Policy(Handle):
             self._fail(status, done.value)
         return actions
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Refuse to be pickled."""
+        raise TypeError("a policy is not pickled: pickle the agent, and call its compact() again")
+
     def __repr__(self) -> str:
         """Describe the policy."""
         return f"<rlvc.Policy of {self.info.leaves} leaves>"

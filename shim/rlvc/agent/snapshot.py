@@ -26,7 +26,7 @@ from ..domains.bits import Bits
 from ..domains.descriptors import Descriptors
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
-from ..errors import SnapshotError, StoreError
+from ..errors import ConfigError, SnapshotError, StoreError
 from ..files import read, replace, tidy
 from .config import Config
 
@@ -87,19 +87,28 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
     StoreError
         The file cannot be written, or is a link, a folder, a FIFO or a device.
     """
+    if isinstance(names, str) or not all(isinstance(name, str) for name in _listed(names)):
+        raise ConfigError(f"names: {names!r:.80} is not a list of str")
     snapshot = agent.snapshot()
     domain = agent.domain
     head = {
         "bits": domain.bits if isinstance(domain, Bits) else None,
         "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
         "thresholds": domain.parameters if isinstance(domain, Thresholds) else None,
-        "names": [str(name) for name in names],
+        "names": list(names),
         "config": dataclasses.asdict(agent.config),
         "bytes": len(snapshot),
     }
     text = json.dumps(head, default=lambda number: number.item())  # numpy's numbers
     content = b"rlvc agent %d\n%b\n%b" % (_VERSION, text.encode(), snapshot)
     replace(file, content + zlib.crc32(content).to_bytes(4, "little"))
+
+
+def _listed(names: Sequence[str]) -> list[Any]:
+    try:
+        return list(names)
+    except TypeError:
+        return [None]
 
 
 def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes]:

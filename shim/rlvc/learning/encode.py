@@ -51,17 +51,39 @@ class _Part:
         path: tuple[Any, ...],
         names: list[str],
         columns: Callable[[Any], Columns],
+        shape: tuple[int, ...],
         accepts: Callable[[Any], bool],
     ) -> None:
         self.path = path
         self.names = names
         self.columns = columns
+        self.shape = shape
         self.accepts = accepts
 
     def of(self, observation: Any) -> Any:
-        for key in self.path:
-            observation = observation[key]
+        """Its part of an observation, or of a batch of them."""
+        try:
+            for key in self.path:
+                observation = observation[key]
+        except (KeyError, IndexError, TypeError):
+            raise PerceptError(f"an observation without {_prefix(self.path)!r}") from None
         return observation
+
+    def encode(self, observation: Any) -> Columns:
+        """The columns of one observation."""
+        value = self.of(observation)
+        try:
+            array = np.asarray(value)
+            if array.size == 1 and np.prod(self.shape, dtype=int) == 1:
+                array = array.reshape(self.shape)
+            if self.accepts(array):
+                columns: Columns = self.columns(array[None])[0]
+                return columns
+        except (OverflowError, TypeError, ValueError) as error:
+            if isinstance(error, PerceptError):
+                raise
+        where = _prefix(self.path) or "observation"
+        raise PerceptError(f"{where}: {value!r:.80} is not of the environment's observation space")
 
 
 def _prefix(path: tuple[Any, ...]) -> str:
@@ -75,11 +97,12 @@ def _box_part(space: Any, path: tuple[Any, ...]) -> _Part:
 
     def columns(batch: Any) -> Columns:
         rows = np.asarray(batch, np.float64).reshape(len(batch), -1)
-        if np.isnan(rows).any():
-            raise PerceptError("an observation has a NaN in it")
+        bad = np.flatnonzero(np.isnan(rows).any(axis=0))
+        if len(bad):
+            raise PerceptError(f"{names[bad[0]]} is NaN: give a number instead")
         return rows.clip(-_native.THRESHOLDS_NUMBER_MAX, _native.THRESHOLDS_NUMBER_MAX)
 
-    return _Part(path, names, columns, lambda value: np.shape(value) == space.shape)
+    return _Part(path, names, columns, space.shape, lambda value: value.shape == space.shape)
 
 
 class Numbers:
@@ -99,6 +122,9 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
         return [_box_part(space, path)]
     from gymnasium import spaces
 
+    def whole(value: Columns) -> bool:
+        return value.dtype.kind in "biu" and bool(space.contains(value.astype(np.int64)))
+
     label = _prefix(path)
     if isinstance(space, spaces.Dict):
         inner = [((*path, key), sub) for key, sub in space.spaces.items()]
@@ -108,7 +134,7 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
     if isinstance(space, spaces.Discrete):
         width, start = _width(int(space.n)), int(space.start)
         names = [f"{label or 'number'} bit {bit}" for bit in range(width)]
-        return [_Part(path, names, lambda v: _binary(v, start, [width]), space.contains)]
+        return [_Part(path, names, lambda v: _binary(v, start, [width]), (), whole)]
     if isinstance(space, spaces.MultiDiscrete):
         counts, starts = np.ravel(space.nvec), np.ravel(space.start)
         widths = [_width(int(count)) for count in counts]
@@ -121,7 +147,7 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
         def multi(values: Any) -> Columns:
             return _binary(np.asarray(values).reshape(-1, len(widths)), starts, widths)
 
-        return [_Part(path, names, multi, space.contains)]
+        return [_Part(path, names, multi, space.shape, whole)]
     if isinstance(space, spaces.MultiBinary):
         size = int(np.prod(space.shape))
         names = [f"{label or 'x'}[{i}]" for i in range(size)]
@@ -130,7 +156,8 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
                 path,
                 names,
                 lambda v: np.asarray(v).reshape(-1, size).astype(np.bool_),
-                lambda value: np.shape(value) == space.shape,
+                space.shape,
+                lambda v: v.shape == space.shape and bool(((v == 0) | (v == 1)).all()),
             )
         ]
     if isinstance(space, spaces.Box):
@@ -181,6 +208,7 @@ class Encoder:
     domain: Domain
 
     def __init__(self, space: Any, thresholds: int = 15) -> None:
+        self._made_of = (space, thresholds)
         self._parts = _parts(space, ())
         self.names = [name for part in self._parts for name in part.names]
         size, real = len(self.names), _has_reals(space)
@@ -191,6 +219,15 @@ class Encoder:
                 "give an encoder of your own, or for pictures an rlvc.vision.Eye"
             )
         self.domain = Thresholds(size, thresholds) if real else Bits(size)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickle what it was made of, and the names."""
+        return {"made_of": self._made_of, "names": self.names}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make it again."""
+        Encoder.__init__(self, *state["made_of"])
+        self.names = state["names"]
 
     def encode(self, observation: Any) -> bytes:
         """Encode one observation.
@@ -208,17 +245,7 @@ class Encoder:
         PerceptError
             It is no element of the space, or has a NaN in it.
         """
-        columns = []
-        for part in self._parts:
-            try:
-                value = part.of(observation)
-            except (KeyError, IndexError, TypeError):
-                raise PerceptError(f"an observation without {_prefix(part.path)!r}") from None
-            if not part.accepts(value):
-                raise PerceptError(
-                    f"{_prefix(part.path) or 'observation'}: {value!r:.80} is not of its space"
-                )
-            columns.append(part.columns(np.asarray(value)[None])[0])
+        columns = [part.encode(observation) for part in self._parts]
         return bytes(self._packed(np.concatenate(columns)[None])[0].tobytes())
 
     def encode_many(self, observations: Any) -> npt.NDArray[Any]:
@@ -232,7 +259,12 @@ class Encoder:
         -------
         ndarray, [n, *percept_shape] of the domain
         """
-        columns = [part.columns(np.asarray(part.of(observations))) for part in self._parts]
+        try:
+            columns = [part.columns(np.asarray(part.of(observations))) for part in self._parts]
+        except (OverflowError, TypeError, ValueError) as error:
+            if isinstance(error, PerceptError):
+                raise
+            raise PerceptError(f"a batch that is not of the space: {error}") from error
         return self._packed(np.concatenate(columns, axis=1))
 
     def _packed(self, columns: Columns) -> npt.NDArray[Any]:

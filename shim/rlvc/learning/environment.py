@@ -3,34 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import SpaceError
-
-if TYPE_CHECKING:
-    pass
-
-
-
-
-def _actions(space: Any) -> tuple[int, int]:
-    """How many actions there are, and the number of the first."""
-    from gymnasium import spaces
-
-    if not isinstance(space, spaces.Discrete):
-        raise SpaceError(f"an agent has a finite set of actions, and not {space}")
-    if not 1 <= space.n <= 255:
-        raise SpaceError(f"an agent has at most 255 actions, and {space} has {space.n}")
-    return int(space.n), int(space.start)
+from . import boundary
 
 
 class Environment:
     """One environment, or a vector of them, as batches of live transitions."""
 
     def __init__(self, env: Any, seed: int) -> None:
+        boundary.check(env)
         self.env = env
         self.count = int(getattr(env, "num_envs", 0))
         self.vector = self.count > 0
@@ -39,11 +24,11 @@ class Environment:
             env.single_observation_space if self.vector else env.observation_space
         )
         self.action_space = env.single_action_space if self.vector else env.action_space
-        self.actions, self.start = _actions(self.action_space)
+        self.actions, self.start = boundary.actions(self.action_space)
         mode = str(env.metadata.get("autoreset_mode", "")) if self.vector else ""
         self.same_step = "SAME" in mode.upper()
         self.manual = "DISABLED" in mode.upper()
-        self.current, _ = env.reset(seed=seed)
+        self.current = boundary.reset(env, seed=seed)
         self.dead = np.zeros(self.count, np.bool_)
 
     def split(self, batch: Any) -> list[Any]:
@@ -61,18 +46,19 @@ class Environment:
         """
         actions = actions.astype(np.int64) + self.start
         if not self.vector:
-            following, reward, terminated, truncated, _ = self.env.step(int(actions[0]))
-            reached = [following]
-            self.current = self.env.reset()[0] if terminated or truncated else following
-            return reached, np.array([reward]), np.array([terminated]), np.array([truncated])
-        following, rewards, terminated, truncated, info = self.env.step(actions)
+            following, *rest = boundary.step(self.env, int(actions[0]))
+            over = rest[1] or rest[2]
+            self.current = boundary.reset(self.env) if over else following
+            reward, terminated, truncated = (np.array([value]) for value in rest)
+            return [following], reward, terminated, truncated
+        following, rewards, terminated, truncated, info = boundary.step_all(self.env, actions)
         over = terminated | truncated
         reached = self.split(following)
         if self.same_step and over.any():
             for i in np.flatnonzero(over):
                 reached[i] = info["final_obs"][i]
         elif self.manual and over.any():
-            following, _ = self.env.reset(options={"reset_mask": over})
+            following = boundary.reset(self.env, options={"reset_mask": over})
         elif not self.same_step:
             self.dead = over
         self.current = following

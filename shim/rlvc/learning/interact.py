@@ -4,19 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .. import _native
 from ..agent.batch import Batch
-from ..agent.results import CHOICE
 from ..domains.domain import Domain
-
-if TYPE_CHECKING:
-    pass
-
+from ..errors import PerceptError
 from .environment import Environment
 from .run import Run
 
@@ -29,18 +25,21 @@ class Interaction:
         self.interactions = interactions
         self.every = every
         self.done = 0
+        self.at = 0  # the interaction that is under way, or was last
+        self.episodes = 0  # ended so far
         self.sums = np.zeros(stream.count)
         self.returns: list[float] = []  # of the episodes ended since the last learning step
 
     def transition(self, actions: Any) -> tuple[Any, ...]:
         """Act, and leave out what is dead or too much."""
-        stream = self.stream
+        stream, self.at = self.stream, self.done
         before = stream.split(stream.current)
         live = np.flatnonzero(~stream.dead)[: self.interactions - self.done]
         reached, rewards, terminated, truncated = stream.step(np.asarray(actions))
         self.sums[live] += rewards[live]
         for i in live[(terminated | truncated)[live]]:
             self.returns.append(float(self.sums[i]))
+            self.episodes += 1
             self.sums[i] = 0.0
         self.done += len(live)
         return (
@@ -70,8 +69,14 @@ def packed(encoder: Any, observations: Any, domain: Domain) -> npt.NDArray[Any]:
     -------
     ndarray, [n, *percept_shape]
     """
-    joined = b"".join(encoder.encode(observation) for observation in observations)
-    return np.frombuffer(joined, domain.percept_dtype).reshape(-1, *domain.percept_shape)
+    records = [encoder.encode(observation) for observation in observations]
+    for record in records:
+        if not isinstance(record, bytes) or len(record) != domain.percept_bytes:
+            raise PerceptError(
+                f"the encoder returned {record!r:.80}, expected {domain.percept_bytes} bytes"
+            )
+    flat = np.frombuffer(b"".join(records), domain.percept_dtype)
+    return flat.reshape(-1, *domain.percept_shape)
 
 
 def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
@@ -85,55 +90,45 @@ def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
     -------
     ndarray of uint8, [n]
     """
-    return np.where(terminated, _native.TERMINATED, np.where(truncated, _native.TRUNCATED, 0)).astype(
-        np.uint8
-    )
+    return np.where(
+        terminated, _native.TERMINATED, np.where(truncated, _native.TRUNCATED, 0)
+    ).astype(np.uint8)
 
 
-def _store(run: Run, percepts: Any, transition: tuple[Any, ...], choices: npt.NDArray[Any]) -> None:
-    _, _, rewards, reached, terminated, truncated = transition
-    run.agent.observe_many(
-        percepts,
-        choices,
-        np.asarray(rewards, np.float32),
-        packed(run.encoder, reached, run.agent.domain),
-        ends_of(terminated, truncated),
-        resume=True,
-    )
+def _step(run: Run, learner: Interaction) -> None:
+    """An interaction of a single environment."""
+    choice = run.agent.act()
+    _, _, rewards, reached, terminated, truncated = learner.transition(np.array([choice.action]))
+    percept = packed(run.encoder, reached, run.agent.domain)[0]
+    run.agent.observe(choice, rewards[0], percept, bool(terminated[0]), bool(truncated[0]))
+    if terminated[0] or truncated[0]:
+        run.agent.begin(packed(run.encoder, [learner.stream.current], run.agent.domain)[0])
 
 
-def _fill(run: Run, batch: Batch, transition: tuple[Any, ...]) -> int:
-    """Write what came of a vector's step into its arrays; how many interactions that is."""
-    _, _, rewards, reached, terminated, truncated = transition
+def _step_all(run: Run, learner: Interaction, batch: Batch) -> None:
+    """An interaction of each environment of a vector."""
+    stream = learner.stream
+    live = np.flatnonzero(~stream.dead)
+    everyone = stream.split(stream.current)
+    batch.percepts[: len(live)] = packed(run.encoder, [everyone[i] for i in live], run.agent.domain)
+    actions = np.zeros(stream.count, np.int64)
+    actions[live] = batch.act(len(live))["action"]
+    _, _, rewards, reached, terminated, truncated = learner.transition(actions)
     count = len(reached)
     batch.rewards[:count] = rewards
     batch.next_percepts[:count] = packed(run.encoder, reached, run.agent.domain)
     batch.ends[:count] = ends_of(terminated, truncated)
-    return count
+    batch.observe(count)
 
 
 def collect(run: Run, learner: Interaction) -> Iterator[None]:
     """Interact; yields whenever a learning step is due."""
-    stream, agent = learner.stream, run.agent
-    batch = agent.batch(stream.count)
+    batch = run.agent.batch(learner.stream.count) if learner.stream.vector else None
     while learner.done < learner.interactions:
         before = learner.done
-        live = np.flatnonzero(~stream.dead)
-        everyone = stream.split(stream.current)
-        percepts = packed(run.encoder, [everyone[i] for i in live], agent.domain)
-        if stream.vector:
-            batch.percepts[: len(live)] = percepts
-            choices = batch.act(len(live))
+        if batch is None:
+            _step(run, learner)
         else:
-            choices = np.array([agent.act()], CHOICE)
-        actions = np.zeros(stream.count, np.int64)
-        actions[live] = choices["action"]
-        transition = learner.transition(actions)
-        if stream.vector:
-            batch.observe(_fill(run, batch, transition))
-        else:
-            _store(run, percepts, transition, choices)
-            if transition[4][0] or transition[5][0]:
-                agent.begin(run.encoder.encode(stream.current))  # type: ignore[union-attr]
+            _step_all(run, learner, batch)
         if learner.due(before):
             yield

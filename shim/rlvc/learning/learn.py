@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +13,11 @@ import numpy.typing as npt
 from ..agent.agent import Agent
 from ..agent.config import Config
 from ..agent.results import Choice
+from ..checks import whole
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
-from ..errors import ConfigError
+from ..errors import ConfigError, Error
 from .encode import Encoder
 from .environment import Environment
 from .interact import Interaction, collect, packed
@@ -72,6 +74,12 @@ def domain_of(encoder: Any) -> Domain:
     Domain
     """
     domain = getattr(encoder, "domain", None)
+    if not callable(getattr(encoder, "encode", None)) or not (
+        isinstance(domain, Domain) or hasattr(encoder, "bits")
+    ):
+        raise ConfigError(
+            f"encoder: {type(encoder).__name__} needs encode(observation), and domain or bits"
+        )
     return domain if isinstance(domain, Domain) else Bits(encoder.bits)
 
 
@@ -164,20 +172,28 @@ def learn(
     ConfigError
         A field of the config, ``interactions``, ``every`` or ``leaves`` is out of range.
 
+    EnvError, RewardError, PerceptError
+        The environment returned something else than Gymnasium's interface says; the message names
+        the interaction, the episode, and what it was.
+
     Notes
     -----
-    Ctrl-C ends learning; the run so far is returned, and is ``interrupted``.
+    Ctrl-C ends learning; the run so far is returned, and is ``interrupted``. An exception, also one of
+    the environment, the encoder or the callback, has the run so far as its attribute ``run``.
     """
-    if interactions < 1 or (every is not None and every < 1):
-        raise ConfigError("interactions and every are at least 1")
+    interactions = whole("interactions", interactions, 1, 2**53)
+    every = max(100, interactions // 100) if every is None else whole("every", every, 1, 2**53)
     if seed is None:
         seed = int(np.random.SeedSequence().generate_state(1)[0])
+    seed = whole("seed", seed, 0, 2**63 - 1)
+    if callback is not None and not callable(callback):
+        raise ConfigError(f"callback: {callback!r:.80} is not a function")
     stream = Environment(env, seed)
     if stream.vector and config.get("criterion") == "returns":
         raise ConfigError(
             "criterion: returns need episodes in one piece, and so a single environment"
         )
-    learner = Interaction(stream, interactions, every or max(100, interactions // 100))
+    learner = Interaction(stream, interactions, every)
     if encoder is None:
         encoder = Encoder(stream.observation_space, thresholds)
     domain = domain_of(encoder)
@@ -185,7 +201,8 @@ def learn(
     able = able and config.get("criterion") != "returns"
     if leaves is None:
         leaves = _LEAVES if able else 0
-    if leaves < 0 or (leaves > 0 and not able):
+    leaves = whole("leaves", leaves, 0, 2**16)
+    if leaves > 0 and not able:
         raise ConfigError(
             "leaves: trials need one environment, percepts that are real numbers, and not the criterion "
             "of returns"
@@ -202,10 +219,24 @@ def learn(
             _learn(run, learner, bar, callback)
     except KeyboardInterrupt:
         run.interrupted = True
+    except BaseException as error:
+        _explain(error, run, learner)
+        raise
     finally:
         if bar is not None:
             bar.close()
     return run
+
+
+def _explain(error: BaseException, run: Run, learner: Interaction) -> None:
+    """Add to an exception where it was raised, and the run so far."""
+    where = f"interaction {learner.at}, episode {learner.episodes}"
+    if isinstance(error, Error):
+        error.args = (f"{where}: {error}",)
+    with contextlib.suppress(AttributeError, TypeError):  # a class may not let one
+        error.run = run  # type: ignore[attr-defined]
+        if not isinstance(error, Error) and hasattr(error, "add_note"):  # from Python 3.11 on
+            error.add_note(f"rlvc.learn: {where}; the attribute run is what was learnt until then")
 
 
 def _learn(
@@ -215,7 +246,7 @@ def _learn(
     callback: Callable[[Run], object] | None,
 ) -> None:
     if not learner.stream.vector:
-        run.agent.begin(run.encoder.encode(learner.stream.current))  # type: ignore[union-attr]
+        run.agent.begin(packed(run.encoder, [learner.stream.current], run.agent.domain)[0])
     for _ in collect(run, learner):
         splits = run.agent.learn().splits
         _note(run, learner, splits, bar)

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..agent.agent import Agent
 from ..agent.policy import Policy
+from ..checks import whole
+from . import boundary
 from .encode import Encoder
 from .small_policy import SmallPolicy
 
@@ -117,16 +119,25 @@ class Run:
         -------
         float
             The mean undiscounted return of an episode.
+
+        Raises
+        ------
+        ConfigError
+            ``episodes`` is not at least 1, or ``seed`` not at least 0.
+        EnvError, RewardError, PerceptError
+            The environment returned something else than Gymnasium's interface says.
         """
+        boundary.check(env)
+        episodes = whole("episodes", episodes, 1, 2**53)
+        seed = whole("seed", seed, 0, 2**63 - 1)
         total = 0.0
         for episode in range(episodes):
-            observation, _ = env.reset(seed=seed if episode == 0 else None)
+            observation = boundary.reset(env, seed=seed if episode == 0 else None)
             over = False
             while not over:
-                observation, reward, terminated, truncated, _ = env.step(
-                    self.act(observation, policy)
-                )
-                total += float(reward)
+                action = self.act(observation, policy)
+                observation, reward, terminated, truncated = boundary.step(env, action)
+                total += reward
                 over = terminated or truncated
         return total / episodes
 

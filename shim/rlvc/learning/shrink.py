@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import RangeError
+from ..checks import whole
+from ..errors import ArrayError, RangeError
 from .small_policy import Reals, SmallPolicy
 
 _CUTPOINTS = 32  # of a component, at quantiles of all percepts
@@ -101,10 +102,20 @@ def shrink(percepts: Reals, values: Reals, leaves: int) -> SmallPolicy:
     ------
     RangeError
         ``leaves`` is less than 1.
+    ArrayError
+        ``percepts`` or ``values`` has another shape.
     """
-    if leaves < 1:
-        raise RangeError("leaves are at least 1")
-    growth = _Growth(np.asarray(percepts, np.float32), np.asarray(values, np.float64))
+    leaves = whole("leaves", leaves, 1, 2**31, RangeError)
+    try:
+        rows, wanted = np.asarray(percepts, np.float32), np.asarray(values, np.float64)
+    except (TypeError, ValueError) as error:
+        raise ArrayError(f"percepts and values must be arrays of numbers: {error}") from None
+    if rows.ndim != 2 or wanted.ndim != 2 or len(rows) != len(wanted) or 0 in wanted.shape:
+        raise ArrayError(
+            f"percepts {list(rows.shape)} and values {list(wanted.shape)}, expected "
+            "[n, components] and [n, actions], neither of them empty"
+        )
+    growth = _Growth(rows, wanted)
     while len(growth.leaves) < leaves and growth.grow():
         pass
     return growth.policy._merge()

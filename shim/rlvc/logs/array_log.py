@@ -18,6 +18,16 @@ _FIELDS = ("observations", "actions", "rewards", "terminated")
 _OPTIONAL = ("truncated", "exploited")
 
 
+def _array(values: Any, name: str, where: str) -> npt.NDArray[Any]:
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise LogError(f"{where}: {name}: not an array: {error}") from None
+    if array.ndim == 0:
+        raise LogError(f"{where}: {name}: not an array but {values!r:.80}")
+    return array
+
+
 def _column(
     arrays: dict[str, Any], name: str, count: int, where: str, kind: str
 ) -> npt.NDArray[Any]:
@@ -55,12 +65,13 @@ def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
     for name in _FIELDS:
         if name not in arrays:
             raise LogError(
-                f"{where}: {name}: missing (there are: {', '.join(sorted(arrays)) or 'none'})"
+                f"{where}: {name}: missing (there are: {', '.join(sorted(map(str, arrays))) or 'none'})"
             )
     known = {*_FIELDS, *_OPTIONAL, "next_observations"}
-    unknown = sorted(set(arrays) - known)
+    unknown = sorted(map(str, set(arrays) - known))
     if unknown:
         raise LogError(f"{where}: {unknown[0]}: not known; a log has {', '.join(sorted(known))}")
+    arrays = {name: _array(arrays[name], name, where) for name in arrays}
     count = np.size(arrays["actions"])
     if count == 0:
         raise LogError(f"{where}: actions: no interaction in it")

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from .. import _native
 from ..agent.agent import Agent
 from ..agent.results import CHOICE
+from ..checks import whole
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..errors import ConfigError, LogError, PerceptError
@@ -179,14 +180,22 @@ def learn_from(
         The log is damaged; the text says in which file, where, and what is wrong.
     ConfigError
         A field is out of range, or the criterion needs what the log has not.
+
+    Notes
+    -----
+    Ctrl-C ends learning; what was learnt by then is returned, and is ``interrupted``.
     """
+    if isinstance(columns, str):
+        columns = [columns]
     read_log = read(log, columns)
     if config.get("criterion") == "returns" and read_log.exploited is None:
         raise ConfigError("criterion: returns need a log that says what was exploited")
-    if steps < 1:
-        raise ConfigError("steps: at least 1")
+    steps = whole("steps", steps, 1, 2**31)
+    seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     highest = int(read_log.actions.max())
-    count = (read_log.action_count or highest + 1) if actions is None else actions
+    if actions is None:
+        actions = read_log.action_count or highest + 1
+    count = whole("actions", actions, 1, 255)
     if highest >= count:
         index = int(np.argmax(read_log.actions >= count))
         raise LogError(
@@ -197,7 +206,7 @@ def learn_from(
         encoder, before, after = None, read_log.before, read_log.after
     else:
         domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
-    settings = default_config(count, len(read_log), int(config.get("seed", 1)), config)
+    settings = default_config(count, len(read_log), seed, config)
     run = Run(Agent(domain, settings), encoder, settings.seed)
     choices = np.zeros(len(read_log), CHOICE)
     choices["action"] = read_log.actions
@@ -206,7 +215,11 @@ def learn_from(
     for k in range(steps):
         if k == 0 or settings.criterion == "returns":
             run.agent.observe_many(before, choices, read_log.rewards, after, read_log.ends)
-        splits = run.agent.learn().splits
+        try:
+            splits = run.agent.learn().splits
+        except KeyboardInterrupt:
+            run.interrupted = True
+            break
         classes = run.agent.classes
         run.history.append(Record(k + 1, len(read_log), classes, splits, 0, float("nan")))
     return run

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .. import _native
 from ..errors import LogError
 
 
@@ -59,6 +60,11 @@ def checked(log: Log) -> Log:
     if len(bad):
         raise LogError(
             f"{log.where}: rewards: index {bad[0]}: {log.rewards[bad[0]]} is no finite number"
+        )
+    bad = np.flatnonzero(np.abs(log.rewards) > _native.REWARD_MAX)
+    if len(bad):
+        raise LogError(
+            f"{log.where}: rewards: index {bad[0]}: {log.rewards[bad[0]]} is not in [-1e12, 1e12]"
         )
     bad = np.flatnonzero((log.actions < 0) | (log.actions > 254))
     if len(bad):

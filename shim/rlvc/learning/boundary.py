@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: MIT
+"""What an environment returns, checked in one place.
+
+Numbers of numpy, arrays of one element, and 0 or 1 as a flag are taken as what they are meant to be.
+Anything else is refused by an error that says what the environment should return.
+"""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _native
+from ..checks import flag, real
+from ..errors import EnvError, RewardError, SpaceError
+
+_OLD = (
+    "it has the interface of an old version of Gym: wrap it, for example with Shimmy's "
+    "GymV21CompatibilityV0"
+)
+
+
+def check(env: Any) -> None:
+    """Raise :class:`~rlvc.errors.EnvError` if an object is not an environment of Gymnasium.
+
+    Parameters
+    ----------
+    env : object
+    """
+    if isinstance(env, str):
+        raise EnvError(f"env: {env!r} is a name: give gymnasium.make({env!r})")
+    for name in ("reset", "step", "action_space", "observation_space"):
+        if not hasattr(env, name):
+            raise EnvError(f"env: {type(env).__name__} is not an environment: it has no {name}")
+    try:
+        parameters = inspect.signature(env.reset).parameters
+    except (TypeError, ValueError):  # of a function in C
+        return
+    if "seed" not in parameters and all(p.kind is not p.VAR_KEYWORD for p in parameters.values()):
+        raise EnvError(f"env: its reset() takes no seed: {_OLD}")
+
+
+def actions(space: Any) -> tuple[int, int]:
+    """Return the number of actions of a space, and the first.
+
+    Parameters
+    ----------
+    space : gymnasium.Space
+
+    Returns
+    -------
+    tuple of int
+    """
+    from gymnasium import spaces
+
+    if not isinstance(space, spaces.Discrete):
+        raise SpaceError(f"an agent needs a finite set of actions, Discrete, not {space}")
+    if not 1 <= space.n <= 255:
+        raise SpaceError(f"{space} has {space.n} actions, more than 255")
+    return int(space.n), int(space.start)
+
+
+def reset(env: Any, **arguments: Any) -> Any:
+    """Reset an environment, or a vector of them.
+
+    Parameters
+    ----------
+    env : gymnasium.Env or gymnasium.vector.VectorEnv
+    **arguments
+        ``seed`` and ``options``.
+
+    Returns
+    -------
+    observation
+    """
+    returned = env.reset(**arguments)
+    if not isinstance(returned, tuple) or len(returned) != 2 or not isinstance(returned[1], dict):
+        raise EnvError(f"reset() returned {returned!r:.80}, expected (observation, info): {_OLD}")
+    return returned[0]
+
+
+def step(env: Any, action: int) -> tuple[Any, float, bool, bool]:
+    """Act in an environment.
+
+    Parameters
+    ----------
+    env : gymnasium.Env
+    action : int
+
+    Returns
+    -------
+    observation, float, bool, bool
+        What was reached, the reward, whether it was terminated and truncated.
+    """
+    observation, reward, terminated, truncated, _ = _five(env.step(action))
+    return (
+        observation,
+        _reward("reward", reward),
+        flag("terminated", terminated, EnvError),
+        flag("truncated", truncated, EnvError),
+    )
+
+
+def step_all(env: Any, chosen: npt.NDArray[np.int64]) -> tuple[Any, Any, Any, Any, Any]:
+    """Act in each environment of a vector.
+
+    Parameters
+    ----------
+    env : gymnasium.vector.VectorEnv
+    chosen : ndarray of int64, [n]
+
+    Returns
+    -------
+    observations, float64 [n], bool [n], bool [n], dict
+        What was reached, the rewards, which were terminated and truncated, and the info.
+    """
+    observations, rewards, terminated, truncated, info = _five(env.step(chosen))
+
+    def flags(name: str, values: Any) -> npt.NDArray[np.bool_]:
+        each = enumerate(_each(values, name, len(chosen)))
+        return np.array([flag(f"{name}[{i}]", value, EnvError) for i, value in each])
+
+    each = enumerate(_each(rewards, "rewards", len(chosen)))
+    return (
+        observations,
+        np.array([_reward(f"rewards[{i}]", value) for i, value in each]),
+        flags("terminated", terminated),
+        flags("truncated", truncated),
+        info,
+    )
+
+
+def _five(returned: Any) -> Any:
+    if not isinstance(returned, tuple) or len(returned) != 5:
+        count = f"{len(returned)} values" if isinstance(returned, tuple) else f"{returned!r:.80}"
+        raise EnvError(
+            f"step() returned {count}, expected (observation, reward, terminated, truncated, info)"
+            + (f": {_OLD}" if count == "4 values" else "")
+        )
+    return returned
+
+
+def _each(values: Any, name: str, count: int) -> list[Any]:
+    """The elements of an array, one for each environment."""
+    try:
+        listed = list(values)
+    except TypeError:
+        listed = []
+    if len(listed) != count:
+        raise EnvError(f"{name}: {values!r:.80} is not an array of {count} elements")
+    return listed
+
+
+def _reward(name: str, value: Any) -> float:
+    reward = real(name, value, RewardError)
+    if abs(reward) > _native.REWARD_MAX:
+        raise RewardError(f"{name}: {value!r:.80} is not in [-1e12, 1e12]: scale the rewards")
+    return reward

@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: MIT
+"""What an environment returns is taken as it was meant, or refused by an error that says what to do."""
+
+import copy
+import pickle
+import sys
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium import spaces
+
+import rlvc
+from rlvc import errors
+
+
+class Ring(gymnasium.Env):
+    """Four places in a ring, an episode of five steps; what it returns can be changed."""
+
+    def __init__(self, space=None, returned=None, **changed):
+        self.observation_space = space or spaces.Discrete(4)
+        self.action_space = spaces.Discrete(2)
+        self.changed = changed
+        self.returned = returned
+        self.steps = 0
+
+    def value(self, name, value):
+        change = self.changed.get(name)
+        return value if change is None else change(value)
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.place, self.left = 0, 5
+        return self.value("reset", (self.value("observation", 0), {}))
+
+    def step(self, action):
+        assert isinstance(action, int | np.int64)
+        self.steps += 1
+        self.place, self.left = (self.place + 2 * action - 1) % 4, self.left - 1
+        return self.value("step", (
+            self.value("observation", self.place), self.value("reward", float(self.place == 2)),
+            self.value("terminated", self.left == 0), self.value("truncated", False), {},
+        ))  # fmt: skip
+
+
+def learnt(**changed):
+    run = rlvc.learn(Ring(**changed), 500, seed=1)
+    return run.text(), run.history
+
+
+HARMLESS = [
+    {name: change}
+    for name in ("terminated", "truncated")
+    for change in (int, float, np.bool_, np.int64, np.array, lambda v: np.array([v]), lambda v: [v][0])
+] + [
+    {"reward": change}
+    for change in (int, bool, np.float32, np.int8, np.array, lambda v: np.array([v]), lambda v: np.array([[v]]))
+] + [
+    {"observation": change}
+    for change in (np.int8, np.uint64, np.array, lambda v: np.array([v]), lambda v: np.array([v], np.uint8))
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("changed", HARMLESS, ids=lambda changed: next(iter(changed)))
+def test_what_is_harmless_is_the_same(changed):
+    assert repr(learnt(**changed)) == repr(learnt())
+
+
+def fifth(value):
+    """That value from the fifth call on."""
+    calls = []
+
+    def change(right):
+        calls.append(1)
+        return value if len(calls) >= 5 else right
+
+    return change
+
+
+REFUSED = [
+    *[("reward", value, errors.RewardError) for value in (
+        None, "1", b"1", [1.0], np.zeros(2), np.zeros(0), np.nan, np.inf, 1j, 2e12, 10**400, {}, object())],
+    *[(name, value, errors.EnvError) for name in ("terminated", "truncated") for value in (
+        None, "no", 2, -1, 0.5, np.nan, np.zeros(2), np.zeros(0), [], {}, object())],
+    *[("observation", value, errors.PerceptError) for value in (
+        None, "a", 4, -1, 1.0, np.nan, [0, 1], np.zeros(2, int), {}, [[1], [1, 2]], 2**70, object())],
+    *[("step", value, errors.EnvError) for value in (
+        None, 3, (0, 0.0, False, {}), (), [0, 0.0, False, False, {}], (0, 0.0, False, False, {}, 1))],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "value", "error"), REFUSED)
+def test_what_is_refused_names_the_place_and_the_field(name, value, error):
+    said = {"step": r"step\(\) returned", "observation": "observation: "}.get(name, f"{name}: ")
+    with pytest.raises(error, match=rf"^interaction [34], episode 0: {said}") as caught:
+        rlvc.learn(Ring(**{name: fifth(value)}), 100, seed=1)
+    assert caught.value.run.agent.statistics.interactions in (3, 4)
+    caught.value.run.agent.check()
+    run = rlvc.learn(Ring(), 100, seed=1)
+    with pytest.raises(error, match=said):
+        run.evaluate(Ring(**{name: fifth(value)}))
+
+
+def test_the_place_is_counted():
+    def reward(value, calls=[]):  # noqa: B006
+        calls.append(1)
+        return None if len(calls) == 24 else value
+
+    with pytest.raises(errors.RewardError, match=r"^interaction 23, episode 4: reward: None"):
+        rlvc.learn(Ring(reward=reward), 100, seed=1)
+
+
+@pytest.mark.parametrize("value", [0, (0, 1), None, (0,), (0, {}, 1)])
+def test_a_reset_that_returns_something_else(value):
+    with pytest.raises(errors.EnvError, match=r"reset\(\) returned"):
+        rlvc.learn(Ring(reset=lambda _: value), 100)
+
+
+def test_environments_of_the_old_interface():
+    class Old(Ring):
+        def reset(self):
+            return 0
+
+        def step(self, action):
+            return 0, 0.0, False, {}
+
+    class Seeded(Old):
+        def reset(self, *, seed=None, options=None):
+            return 0, {}
+
+    with pytest.raises(errors.EnvError, match=r"takes no seed.*wrap it"):
+        rlvc.learn(Old(), 100)
+    with pytest.raises(errors.EnvError, match=r"4 values.*wrap it"):
+        rlvc.learn(Seeded(), 100)
+
+
+def test_numbers_that_are_none_name_their_component():
+    space = spaces.Dict({"a": spaces.Box(-9, 9, (2, 2)), "b": spaces.Discrete(2)})
+    broken = {"a": np.array([[1, 2], [np.nan, 3]]), "b": 0}
+    with pytest.raises(errors.PerceptError, match=r"a\[2\] is NaN"):
+        rlvc.learn(Ring(space, observation=lambda _: broken), 100)
+    with pytest.raises(errors.PerceptError, match="without 'b'"):
+        rlvc.learn(Ring(space, observation=lambda _: {"a": np.zeros((2, 2))}), 100)
+
+
+@pytest.mark.parametrize(
+    "name", ["reward", "terminated", "truncated", "step"],
+)  # fmt: skip
+def test_vectors(name):
+    envs = gymnasium.vector.SyncVectorEnv([Ring for _ in range(3)])
+    step = envs.step
+
+    def stepped(actions):
+        observation, reward, terminated, truncated, info = step(actions)
+        values = {"reward": reward, "terminated": terminated, "truncated": truncated}
+        if envs.envs[0].steps > 20:
+            values[name] = values[name].astype(object) if name != "step" else None
+            if name == "step":
+                return observation, reward, terminated, {}
+            values[name][1] = None
+        return observation, *values.values(), info
+
+    envs.step = stepped
+    said = {"reward": r"rewards\[1\]", "step": "4 values"}.get(name, rf"{name}\[1\]")
+    with pytest.raises((errors.EnvError, errors.RewardError), match=said) as caught:
+        rlvc.learn(envs, 1000, seed=1)
+    assert caught.value.run.agent.statistics.interactions > 20
+
+
+def test_the_run_outlives_what_the_environment_raises():
+    class Broken(Ring):
+        def step(self, action):
+            if self.steps == 420:
+                raise ZeroDivisionError("here")
+            return super().step(action)
+
+    class Stubborn(Exception):
+        def __setattr__(self, name, value):
+            raise AttributeError(name)
+
+    def stop(_):
+        raise Stubborn
+
+    with pytest.raises(ZeroDivisionError, match="here") as caught:
+        rlvc.learn(Broken(), 1000, seed=1)
+    run = caught.value.run
+    assert run.agent.statistics.interactions == 420
+    assert run.history[-1].interactions == 400
+    assert run.act(0) in (0, 1)
+    if sys.version_info >= (3, 11):
+        assert "interaction 420, episode 84" in caught.value.__notes__[0]
+    with pytest.raises(Stubborn):
+        rlvc.learn(Ring(), 1000, callback=stop)
+
+
+def test_what_is_no_environment():
+    for env, said in (
+        ("FrozenLake-v1", "gymnasium.make"),
+        (None, "NoneType"),
+        (3, "int"),
+        (Ring, "Ring|type"),
+    ):
+        with pytest.raises((errors.EnvError, TypeError), match=said):
+            rlvc.learn(env, 100)
+    with pytest.raises(errors.EnvError, match=r"gymnasium\.make"):
+        rlvc.learn(Ring(), 100, seed=1).evaluate("FrozenLake-v1")
+
+
+@pytest.mark.parametrize("value", [1e4, "10", 0, -1, None, True, 2**70, np.float64(100)])
+def test_numbers_of_the_caller(value):
+    wanted = [{"interactions": value}, {"every": value}, {"leaves": value}]
+    if value not in (0, None):
+        wanted.append({"seed": value})
+    for arguments in wanted:
+        if list(arguments.values()) == [None] and "interactions" not in arguments:
+            continue
+        if arguments in ({"leaves": 0},):
+            continue
+        with pytest.raises(errors.ConfigError, match=next(iter(arguments))):
+            rlvc.learn(Ring(), **{"interactions": 100, **arguments})
+    run = rlvc.learn(Ring(), 100, seed=1)
+    with pytest.raises(errors.ConfigError, match="episodes"):
+        run.evaluate(Ring(), value)
+
+
+def test_numbers_of_numpy():
+    wanted = rlvc.learn(Ring(), 300, seed=3, every=50)
+    run = rlvc.learn(Ring(), np.int64(300), seed=np.uint8(3), every=np.int32(50))
+    assert repr(run.history) == repr(wanted.history)
+    assert run.evaluate(Ring(), np.int64(3), np.int64(1)) >= 0.0
+
+
+def test_other_arguments():
+    class NoEncoder:
+        pass
+
+    class Short:
+        bits = 20
+
+        def encode(self, observation):
+            return b"x"
+
+    for arguments, said in (
+        ({"callback": 3}, "callback"), ({"encoder": NoEncoder()}, "encoder"), ({"nonsense": 1}, "nonsense"),
+        ({"capacity": "x"}, "capacity"), ({"encoder": Short()}, "expected 3 bytes"),
+    ):  # fmt: skip
+        with pytest.raises(errors.Error, match=said):
+            rlvc.learn(Ring(), 100, **arguments)
+
+
+@pytest.mark.parametrize(
+    "space", [None, spaces.Box(-9, 9, (1,)), spaces.Tuple((spaces.Box(0, 9), spaces.Discrete(3)))]
+)
+def test_runs_are_pickled(space):
+    def observation(place):
+        return (
+            (np.array([place], np.float32), 1)
+            if isinstance(space, spaces.Tuple)
+            else np.array([place])
+        )
+
+    run = rlvc.learn(Ring(space, observation=observation), 400, seed=1)
+    for other in (pickle.loads(pickle.dumps(run)), copy.deepcopy(run)):
+        assert other.text() == run.text()
+        assert repr(other.history) == repr(run.history)
+        for place in range(4):
+            assert other.act(observation(place)) == run.act(observation(place))
+    with pytest.raises(TypeError, match="compact"):
+        pickle.dumps(run.agent.compact())
+    with pytest.raises(TypeError, match="batch"):
+        pickle.dumps(run.agent.batch(2))
