@@ -148,6 +148,11 @@ static int name(void *ctx, const void *feature, char *text, uint32_t room) {
     return 0;
 }
 
+/* Of a percept any bits will do. */
+static int check_feature(void *ctx, const void *feature) {
+    return rlvc_bits_feature(feature) >= bits_of(ctx);
+}
+
 rlvc_status rlvc_bits_domain(uint32_t bits, rlvc_domain *domain) {
     if (domain == NULL)
         return RLVC_E_NULL;
@@ -163,6 +168,7 @@ rlvc_status rlvc_bits_domain(uint32_t bits, rlvc_domain *domain) {
         .candidates = candidates,
         .detect = detect,
         .name = name,
+        .check_feature = check_feature,
     };
     *domain = made;
     return RLVC_OK;

@@ -26,6 +26,7 @@
 #define STRIDE 1733u  /* between them: a prime, so that the first come from many targets */
 #define INT8_FARTHEST 16777216.0f
 #define NUMBER_MAX 1e15f
+#define MARGIN_MAX 16.0f
 #define REFUSED (-1.0f)
 
 /* ------------------------------------------------------------------ records */
@@ -482,7 +483,34 @@ static int is_valid(const rlvc_descriptors *d) {
            in(d->dimensions, 1, RLVC_DESCRIPTORS_DIMENSIONS_MAX) &&
            in(d->candidates, 1, RLVC_DESCRIPTORS_CANDIDATES_MAX) &&
            in(d->draws, 1, RLVC_DESCRIPTORS_DRAWS_MAX) && d->form <= RLVC_DESCRIPTORS_INT8 &&
-           d->radius > 0.0f && d->radius <= NUMBER_MAX && d->margin >= 1.0f && d->margin <= 16.0f;
+           d->radius > 0.0f && d->radius <= NUMBER_MAX && d->margin >= 1.0f &&
+           d->margin <= MARGIN_MAX;
+}
+
+/* Are the first numbers at a place finite and in range? */
+static int are_numbers(const float *number, uint32_t count) {
+    uint32_t i = 0;
+    while (i < count && number[i] >= -NUMBER_MAX && number[i] <= NUMBER_MAX)
+        i++;
+    return i == count;
+}
+
+static int check_percept(void *ctx, const void *percept) {
+    const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;
+    const uint32_t count = count_of(percept);
+    if (count > d->points)
+        return 1;
+    return d->form == RLVC_DESCRIPTORS_FLOAT &&
+           !are_numbers((const float *)vector_at(d, percept, 0), count * d->dimensions);
+}
+
+static int check_feature(void *ctx, const void *feature) {
+    const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;
+    const float radius = rlvc_descriptors_radius(feature);
+    if (!(radius >= REFUSED && radius <= MARGIN_MAX * NUMBER_MAX))
+        return 1;
+    return d->form == RLVC_DESCRIPTORS_FLOAT &&
+           !are_numbers((const float *)vector_at(d, feature, 0), d->dimensions);
 }
 
 rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain) {
@@ -501,6 +529,8 @@ rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *
         .candidates = candidates,
         .detect = detect,
         .name = name,
+        .check_percept = check_percept,
+        .check_feature = check_feature,
     };
     *domain = made;
     return RLVC_OK;

@@ -266,6 +266,22 @@ static int name(void *ctx, const void *feature, char *text, uint32_t room) {
     return 0;
 }
 
+/* ------------------------------------------------------------------ checks */
+
+static int check_percept(void *ctx, const void *percept) {
+    return rlvc_thresholds_check((const rlvc_thresholds *)ctx, percept) != RLVC_OK;
+}
+
+static int check_feature(void *ctx, const void *feature) {
+    const rlvc_thresholds *t = (const rlvc_thresholds *)ctx;
+    const rlvc_threshold checked = rlvc_thresholds_feature(feature);
+    const float cutpoint = checked.cutpoint, slope = checked.slope;
+    const int oblique = slope != 0.0f; /* of a NaN, too */
+    return !(checked.component < t->components && cutpoint - cutpoint == 0.0f &&
+             slope - slope == 0.0f && oblique <= t->oblique &&
+             checked.other < (oblique ? t->components : 1u));
+}
+
 /* ------------------------------------------------------------------ the interface */
 
 rlvc_status rlvc_thresholds_default(rlvc_thresholds *thresholds, uint32_t components) {
@@ -297,6 +313,8 @@ rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *dom
         .candidates = candidates,
         .detect = detect,
         .name = name,
+        .check_percept = check_percept,
+        .check_feature = check_feature,
     };
     *domain = made;
     return RLVC_OK;

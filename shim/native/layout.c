@@ -42,6 +42,8 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_domain, detect)},
     {FIELD(rlvc_domain, oracle)},
     {FIELD(rlvc_domain, name)},
+    {FIELD(rlvc_domain, check_percept)},
+    {FIELD(rlvc_domain, check_feature)},
     {SIZE(rlvc_config)},
     {FIELD(rlvc_config, actions)},
     {FIELD(rlvc_config, capacity)},

@@ -123,4 +123,6 @@ void rlvc_shim_python_domain(rlvc_shim_python *methods, rlvc_domain *domain) {
     domain->detect = methods->detect ? detect : NULL;
     domain->oracle = methods->oracle ? oracle : NULL;
     domain->name = name;
+    domain->check_percept = NULL; /* percepts come from pack(), features from candidates() */
+    domain->check_feature = NULL;
 }

@@ -38,6 +38,7 @@ static inline void faulty_call_back(faulty *f) {
         rlvc_act(agent, &choice),
         rlvc_observe(agent, choice, 0.0f, percept, RLVC_GOES_ON),
         rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress),
+        rlvc_learn_abandon(agent),
         rlvc_prune(agent, 0.0f, 0.0f, &undone),
         rlvc_predict(agent, percept, NULL, NULL),
         rlvc_stats(agent, &statistics),
@@ -112,6 +113,21 @@ static inline int faulty_name(void *ctx, const void *feature, char *text, uint32
     return 1;
 }
 
+/* What checks records calls back, but does not fail as the others do. */
+static inline int faulty_check_percept(void *ctx, const void *percept) {
+    faulty *f = (faulty *)ctx;
+    if (f->agent)
+        faulty_call_back(f);
+    return f->inner.check_percept(f->inner.ctx, percept);
+}
+
+static inline int faulty_check_feature(void *ctx, const void *feature) {
+    faulty *f = (faulty *)ctx;
+    if (f->agent)
+        faulty_call_back(f);
+    return f->inner.check_feature(f->inner.ctx, feature);
+}
+
 /* The domain around *inner. *f must outlive it. */
 static inline rlvc_domain faulty_domain(faulty *f, const rlvc_domain *inner) {
     static const faulty none;
@@ -124,6 +140,8 @@ static inline rlvc_domain faulty_domain(faulty *f, const rlvc_domain *inner) {
     outer.detect = inner->detect ? faulty_detect : NULL;
     outer.oracle = inner->oracle ? faulty_oracle : NULL;
     outer.name = faulty_name;
+    outer.check_percept = inner->check_percept ? faulty_check_percept : NULL;
+    outer.check_feature = inner->check_feature ? faulty_check_feature : NULL;
     return outer;
 }
 

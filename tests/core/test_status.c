@@ -14,9 +14,10 @@
 static void test_each_status_has_its_sentence(void **state) {
     (void)state;
     const rlvc_status statuses[] = {
-        RLVC_OK,      RLVC_E_NULL,   RLVC_E_CONFIG,  RLVC_E_MEMORY,   RLVC_E_ORDER,
-        RLVC_E_RANGE, RLVC_E_REWARD, RLVC_E_BUSY,    RLVC_E_CALLBACK, RLVC_E_REENTERED,
-        RLVC_E_STORE, RLVC_E_EMPTY,  RLVC_E_DAMAGED, RLVC_E_VERSION,  RLVC_E_MISMATCH};
+        RLVC_OK,         RLVC_E_NULL,      RLVC_E_CONFIG,   RLVC_E_MEMORY,
+        RLVC_E_ORDER,    RLVC_E_RANGE,     RLVC_E_REWARD,   RLVC_E_BUSY,
+        RLVC_E_CALLBACK, RLVC_E_REENTERED, RLVC_E_STORE,    RLVC_E_EMPTY,
+        RLVC_E_DAMAGED,  RLVC_E_VERSION,   RLVC_E_MISMATCH, RLVC_E_PERCEPT};
     const int count = (int)(sizeof statuses / sizeof statuses[0]);
     for (int i = 0; i < count; i++) {
         assert_int_equal(statuses[i], -i);

@@ -199,8 +199,8 @@ typedef struct rlvc_choice {
 #define RLVC_TRUNCATED 2u  /* cut short from outside (a time limit): s' is still worth something */
 
 /* Starts an episode at a percept, which is copied. If one was under way, it is torn here, as if its
- * last interaction had been truncated. O(percept_bytes).
- * @return RLVC_OK; RLVC_E_BUSY. */
+ * last interaction had been truncated. O(percept_bytes), and a call of check_percept().
+ * @return RLVC_OK; RLVC_E_BUSY; RLVC_E_PERCEPT: the domain refuses the percept. */
 RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
 
 /* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon
@@ -211,11 +211,12 @@ RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
 RLVC_API rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice);
 
 /* Stores the interaction <s, a, r, s', e> whose s is the current percept. The choice need not come
- * from rlvc_act. O(percept_bytes); with an incremental solver also O(depth) calls of exhibits().
+ * from rlvc_act. O(percept_bytes), and a call of check_percept(); with an incremental solver also
+ * O(depth) calls of exhibits().
  * @param next s', copied; optional (not looked at) if `end` is RLVC_TERMINATED
  * @param end  RLVC_GOES_ON, or RLVC_TERMINATED or RLVC_TRUNCATED: then call rlvc_begin next
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_RANGE: action, exploited or end;
- *         RLVC_E_REWARD; RLVC_E_BUSY; RLVC_E_CALLBACK. */
+ *         RLVC_E_REWARD; RLVC_E_BUSY; RLVC_E_CALLBACK; RLVC_E_PERCEPT: the domain refuses s'. */
 RLVC_API rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
                                   const void *next, uint8_t end);
 
@@ -246,6 +247,14 @@ typedef struct rlvc_progress {
  *         stands, as though the budget had ended there, and the next call tries that callback
  * again; *progress tells. */
 RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress);
+
+/* Gives up the learning step under way, for the next rlvc_learn to begin another, and lets go of the
+ * interactions that it held: for a step that cannot be finished, since a callback goes on failing.
+ * Splits and values that it made so far stand, k is not incremented. rlvc_begin and rlvc_observe do
+ * the same, instead of answering RLVC_E_BUSY, if the last call of rlvc_learn failed: what made it
+ * fail leaves the ring with its interaction. O(capacity + classes).
+ * @return RLVC_OK, also if no step is under way. */
+RLVC_API rlvc_status rlvc_learn_abandon(rlvc_agent *agent);
 
 /* Takes tests out of the tree that the stored interactions do not support (section 7): from the
  * newest to the oldest a split is undone if its two sides are single classes that agree. These
@@ -340,9 +349,10 @@ typedef int (*rlvc_write)(void *ctx, const char *text, size_t bytes);
 RLVC_API rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
 
 /* Checks every invariant of the agent's memory (SPEC.md lists them): for tests, and for whoever
- * suspects his memory. O(capacity + classes * actions).
+ * suspects his memory. O(capacity + classes * actions), and a call of the domain's checks
+ * for each percept in the ring and each feature of the tree.
  * @return RLVC_OK; RLVC_E_MEMORY: damaged. */
-RLVC_API rlvc_status rlvc_agent_check(const rlvc_agent *agent);
+RLVC_API rlvc_status rlvc_agent_check(rlvc_agent *agent);
 
 #ifdef __cplusplus
 }

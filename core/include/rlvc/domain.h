@@ -87,6 +87,17 @@ typedef struct rlvc_domain {
     /* A feature's name, such as "bit 3": at most `room` - 1 characters and a final 0. No quote,
      * backslash or control character, so that it fits into JSON and DOT as it is. Required. */
     int (*name)(void *ctx, const void *feature, char *text, uint32_t room);
+
+    /* Is a record a percept of this domain; is it a feature that a tree may hold? 0 if so, else
+     * anything. Each is optional: null means that any record is one, whose bytes may then come from
+     * a forged snapshot. After a 0 no other callback may read or write beyond its arguments because
+     * of the record, nor fail for ever because of it. Must not look at anything but the record and
+     * ctx.
+     *
+     * Percepts are asked about where they come in (rlvc_begin, rlvc_observe), both where they are
+     * loaded (rlvc_load) and by rlvc_agent_check. */
+    int (*check_percept)(void *ctx, const void *percept);
+    int (*check_feature)(void *ctx, const void *feature);
 } rlvc_domain;
 
 #define RLVC_NAME_BYTES 64u /* the room that name() gets */

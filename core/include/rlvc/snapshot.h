@@ -71,9 +71,11 @@ RLVC_API rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store);
  * of a store. The config must be the one it was saved with, in every field, and the domain must be
  * as it was. A learning step under way is brought back to where it was by doing its present part
  * anew: that takes at most the time of grouping all samples and of searching one class, and calls
- * the domain.
+ * the domain. If a callback fails in that, the step is given up (rlvc_learn_abandon).
+ * What the domain does not vouch for (check_percept, check_feature) is refused as damaged; a domain
+ * without these checks must be right for any record.
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes;
- * RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION; RLVC_E_MISMATCH; RLVC_E_CALLBACK.
+ * RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION; RLVC_E_MISMATCH.
  * Unless it is RLVC_OK, *agent is null and the block holds nothing of use. */
 RLVC_API rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
                                size_t bytes, const rlvc_store *store, rlvc_agent **agent);

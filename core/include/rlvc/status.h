@@ -35,7 +35,8 @@ typedef enum rlvc_status {
     RLVC_E_EMPTY = -11,    /* the store holds no snapshot */
     RLVC_E_DAMAGED = -12,  /* what is stored was cut short or changed */
     RLVC_E_VERSION = -13,  /* what is stored is of a version that this library does not read */
-    RLVC_E_MISMATCH = -14  /* what is stored is of another config or another domain */
+    RLVC_E_MISMATCH = -14, /* what is stored is of another config or another domain */
+    RLVC_E_PERCEPT = -15   /* the domain refuses the percept */
 } rlvc_status;
 
 /* A constant English sentence for a status; never null, also for a value that is none. O(1). */

@@ -92,17 +92,35 @@ static rlvc_status classify(rlvc_agent *agent, const void *percept, uint32_t *cl
     return status;
 }
 
+/* Asks the domain about a percept. */
+static rlvc_status vouch(rlvc_agent *agent, const void *percept) {
+    const rlvc_domain *domain = &agent->domain;
+    if (!domain->check_percept)
+        return RLVC_OK;
+    agent->busy = 1;
+    int refused = domain->check_percept(domain->ctx, percept);
+    agent->busy = 0;
+    return refused ? RLVC_E_PERCEPT : RLVC_OK;
+}
+
 rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
     if (!percept)
         return RLVC_E_NULL;
+    status = vouch(agent, percept);
+    if (status != RLVC_OK)
+        return status;
     /* A run of exploitation goes on where the window of definition 1 does. */
     int goes_on = agent->config.continuing && !agent->replay.open && agent->replay.count > 0 &&
                   (agent->replay.flags[rlvc_replay_slot(&agent->replay, agent->replay.count - 1)] &
                    RLVC_SLOT_TERMINATED);
     status = rlvc_replay_begin(&agent->replay, percept);
+    if (status == RLVC_E_BUSY && agent->learner.failed) {
+        (void)rlvc_learn_abandon(agent);
+        status = rlvc_replay_begin(&agent->replay, percept);
+    }
     if (status == RLVC_OK && !goes_on)
         agent->run = 0;
     return status;
@@ -152,7 +170,9 @@ static rlvc_status check_observation(const rlvc_agent *agent, rlvc_choice choice
         return RLVC_E_REWARD;
     if (!agent->replay.open)
         return RLVC_E_ORDER;
-    return end == RLVC_TERMINATED || rlvc_replay_has_room(&agent->replay) ? RLVC_OK : RLVC_E_BUSY;
+    return end == RLVC_TERMINATED || rlvc_replay_has_room(&agent->replay) || agent->learner.failed
+               ? RLVC_OK
+               : RLVC_E_BUSY;
 }
 
 rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, const void *next,
@@ -160,6 +180,8 @@ rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, co
     rlvc_status status = available(agent);
     if (status == RLVC_OK)
         status = check_observation(agent, choice, reward, next, end);
+    if (status == RLVC_OK && end != RLVC_TERMINATED)
+        status = vouch(agent, next);
     if (status != RLVC_OK)
         return status;
     if (rlvc_is_incremental(&agent->config)) {
@@ -172,6 +194,8 @@ rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, co
             return status;
         rlvc_td_apply(&updates, agent->config.learning_rate, &agent->values);
     }
+    if (end != RLVC_TERMINATED && !rlvc_replay_has_room(&agent->replay))
+        (void)rlvc_learn_abandon(agent); /* it failed */
     rlvc_replay_append(&agent->replay, choice, reward, next, end);
     agent->interactions++;
     return RLVC_OK;
@@ -255,7 +279,24 @@ rlvc_status rlvc_split_at(const rlvc_agent *agent, uint32_t index, rlvc_split *s
     return RLVC_OK;
 }
 
-rlvc_status rlvc_agent_check(const rlvc_agent *agent) {
+/* Does the domain vouch for all features of the tree and all percepts in the ring? */
+static int records_are_sound(rlvc_agent *agent) {
+    const rlvc_domain *domain = &agent->domain;
+    const rlvc_replay *replay = &agent->replay;
+    int sound = 1;
+    agent->busy = 1;
+    for (uint32_t j = 0; domain->check_feature && sound && j + 1u < agent->tree.classes; j++)
+        sound = !domain->check_feature(domain->ctx, rlvc_tree_feature(&agent->tree, j));
+    for (uint32_t position = 0; domain->check_percept && sound && position < replay->count;
+         position++) {
+        uint32_t slot = rlvc_replay_slot(replay, position);
+        sound = !domain->check_percept(domain->ctx, rlvc_replay_percept(replay, slot));
+    }
+    agent->busy = 0;
+    return sound;
+}
+
+rlvc_status rlvc_agent_check(rlvc_agent *agent) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
@@ -263,6 +304,7 @@ rlvc_status rlvc_agent_check(const rlvc_agent *agent) {
                 rlvc_tree_check(&agent->tree) &&
                 rlvc_replay_check(&agent->replay, agent->config.actions, agent->tree.classes) &&
                 rlvc_values_check(&agent->values, agent->tree.classes) &&
-                rlvc_explorer_check(&agent->explorer, agent->config.actions, agent->tree.classes);
+                rlvc_explorer_check(&agent->explorer, agent->config.actions, agent->tree.classes) &&
+                records_are_sound(agent);
     return sound ? RLVC_OK : RLVC_E_MEMORY;
 }

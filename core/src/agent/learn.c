@@ -407,6 +407,7 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
         work += used;
     }
     agent->busy = 0;
+    agent->learner.failed = status != RLVC_OK;
     memset(progress, 0, sizeof *progress);
     /* All ones where it does not fit: nobody budgets a step of so much work. */
     progress->work = (uint32_t)work | (0u - (uint32_t)(work > UINT32_MAX));
@@ -414,4 +415,23 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     progress->splits = agent->learner.splits;
     progress->done = agent->learner.phase == RLVC_PHASE_IDLE;
     return status;
+}
+
+/* In the middle of a step labels and `pending` go together; without either all is well. */
+rlvc_status rlvc_learn_abandon(rlvc_agent *agent) {
+    if (!agent)
+        return RLVC_E_NULL;
+    if (agent->busy)
+        return RLVC_E_REENTERED;
+    if (agent->learner.phase == RLVC_PHASE_IDLE)
+        return RLVC_OK;
+    rlvc_replay *replay = &agent->replay;
+    for (uint32_t slot = 0; slot < replay->slots; slot++)
+        replay->label[slot] = RLVC_NO_CLASS;
+    for (uint32_t c = 0; c < agent->tree.classes; c++)
+        agent->pending[c] = 0;
+    replay->frozen = 0;
+    agent->learner.phase = RLVC_PHASE_IDLE;
+    agent->learner.failed = 0;
+    return RLVC_OK;
 }

@@ -35,6 +35,7 @@ typedef struct rlvc_learner {
     uint32_t made;    /* made in this round */
     uint8_t phase;
     uint8_t searching; /* the search in class `at` has begun */
+    uint8_t failed;    /* the last call of rlvc_learn did */
 } rlvc_learner;
 
 struct rlvc_agent {

@@ -34,6 +34,8 @@ const char *rlvc_status_text(rlvc_status status) {
         return "what is stored is of a version that this library does not read";
     case RLVC_E_MISMATCH:
         return "what is stored is of another config or another domain";
+    case RLVC_E_PERCEPT:
+        return "the domain refuses the percept: a number in it is not finite or out of range";
     }
     return "not a status of rlvc";
 }

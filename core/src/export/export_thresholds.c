@@ -21,8 +21,10 @@ void rlvc_export_thresholds_comment(rlvc_compact *c, const rlvc_domain *domain) 
         rlvc_compact_line(c, node);
         if (rlvc_compact_is_mixed(c, node)) {
             char name[RLVC_NAME_BYTES];
-            (void)domain->name(domain->ctx, rlvc_compact_feature(c, node), name, sizeof name);
-            rlvc_compact_string(c, name);
+            if (domain->name(domain->ctx, rlvc_compact_feature(c, node), name, sizeof name) != 0)
+                c->text.status = RLVC_E_CALLBACK;
+            else
+                rlvc_compact_string(c, name);
         }
         rlvc_compact_string(c, "\n");
         node = rlvc_compact_next(c, node);

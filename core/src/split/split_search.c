@@ -219,7 +219,8 @@ static rlvc_status detect_batch(rlvc_split_cursor *search, const rlvc_split_inpu
         return RLVC_E_CALLBACK;
     for (uint32_t j = 0; j < search->block; j++) {
         uint64_t *column = rlvc_workspace_column(input->space, search->words, j);
-        column[group->word + search->at / 64u] = bits[j];
+        /* A bit beyond the samples would be counted. */
+        column[group->word + search->at / 64u] = bits[j] & UINT64_MAX >> (64u - n);
     }
     search->at += n;
     *used = n;

@@ -169,11 +169,12 @@ static void pass_explorer(rlvc_stream *s, rlvc_agent *agent) {
 
 /* Between two steps a learner has nothing to tell: zeros. */
 static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_cursor_mark *mark) {
-    uint8_t phase = learner->phase, searching = phase ? learner->searching : 0;
+    uint8_t phase = learner->phase;
+    uint8_t flags = phase ? (uint8_t)(learner->searching + 2u * learner->failed) : 0;
     uint32_t *field[] = {&learner->end,    &learner->at,     &learner->walk.node, &learner->classes,
                          &learner->rounds, &learner->splits, &learner->made};
     rlvc_stream_u8(s, &phase);
-    rlvc_stream_u8(s, &searching);
+    rlvc_stream_u8(s, &flags);
     for (uint32_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         uint32_t number = phase ? *field[i] : 0;
         rlvc_stream_u32(s, &number);
@@ -184,7 +185,8 @@ static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_cursor_mark
         rlvc_stream_u32(s, &mark->word[i]);
     if (s->mode == RLVC_STREAM_LOAD) {
         learner->phase = phase;
-        learner->searching = searching;
+        learner->searching = flags & (uint8_t)~2u;
+        learner->failed = flags >> 1 & 1u;
     }
 }
 
@@ -317,7 +319,7 @@ static int same_config(const rlvc_config *a, const rlvc_config *b) {
 }
 
 /* Does everything that was loaded hold together? */
-static int is_sound(const rlvc_agent *agent) {
+static int is_sound(rlvc_agent *agent) {
     const rlvc_replay *replay = &agent->replay;
     for (uint32_t position = 0; position < replay->count; position++) {
         uint8_t flags = replay->flags[rlvc_replay_slot(replay, position)];
@@ -353,7 +355,8 @@ static rlvc_status load(rlvc_stream *stream, rlvc_agent *agent) {
     agent->busy = 1;
     status = rlvc_cursor_marks_resume(agent, &mark);
     agent->busy = 0;
-    return status;
+    /* A callback that goes on failing must not cost the agent its life. */
+    return status == RLVC_E_CALLBACK ? rlvc_learn_abandon(agent) : status;
 }
 
 rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,

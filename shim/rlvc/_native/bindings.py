@@ -23,6 +23,7 @@ E_EMPTY = -11
 E_DAMAGED = -12
 E_VERSION = -13
 E_MISMATCH = -14
+E_PERCEPT = -15
 DETECT_SAMPLES = 64
 DETECT_FEATURES = 64
 DOMAIN_OWN = 0
@@ -166,6 +167,12 @@ DOMAIN_ORACLE = c.CFUNCTYPE(
 DOMAIN_NAME = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32)
 
 
+DOMAIN_CHECK_PERCEPT = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p)
+
+
+DOMAIN_CHECK_FEATURE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p)
+
+
 class Domain(c.Structure):
     """``rlvc_domain``."""
 
@@ -180,6 +187,8 @@ class Domain(c.Structure):
         ("detect", DOMAIN_DETECT),
         ("oracle", DOMAIN_ORACLE),
         ("name", DOMAIN_NAME),
+        ("check_percept", DOMAIN_CHECK_PERCEPT),
+        ("check_feature", DOMAIN_CHECK_FEATURE),
     ]
 
 
@@ -709,6 +718,7 @@ CORE: Functions = {
     "rlvc_act": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_observe": (c.c_int, [c.c_void_p, Choice, c.c_float, c.c_void_p, c.c_uint8]),
     "rlvc_learn": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
+    "rlvc_learn_abandon": (c.c_int, [c.c_void_p]),
     "rlvc_prune": (c.c_int, [c.c_void_p, c.c_float, c.c_float, c.c_void_p]),
     "rlvc_predict": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_stats": (c.c_int, [c.c_void_p, c.c_void_p]),

@@ -51,6 +51,7 @@ _ERRORS: dict[int, type[Error]] = {
     _native.E_DAMAGED: SnapshotError,
     _native.E_VERSION: SnapshotError,
     _native.E_MISMATCH: SnapshotError,
+    _native.E_PERCEPT: PerceptError,
 }
 _TEXT_ROOM = 1 << 16  # bytes; a longer text is written once more
 _WRITE = ctypes.cast(_native.call.rlvc_shim_text_write, _native.WRITE)
