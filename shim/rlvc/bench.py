@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the package's calls cost on this machine, beside empty calls of the library."""
+"""Times the package's calls, and empty calls of the library for comparison."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def best(function: Callable[[], object], rounds: int = 7) -> float:
     Returns
     -------
     float
-        The least time of so many rounds, in seconds.
+        The shortest time of all rounds, in seconds.
     """
     times = []
     for _ in range(rounds):
@@ -66,12 +66,15 @@ def step_times(agent: Agent) -> tuple[float, float]:
     Returns
     -------
     tuple of float
-        Seconds of the one and of the other.
+        Both times, in seconds.
     """
     percept = np.array([1, 2, 3], np.uint8)
     agent.begin(percept)
     act, observe = agent.act, agent.observe
-    empty_act, empty_observe = _native.call.rlvc_shim_empty_act, _native.call.rlvc_shim_empty_observe
+    empty_act, empty_observe = (
+        _native.call.rlvc_shim_empty_act,
+        _native.call.rlvc_shim_empty_observe,
+    )
     handle, choice, record = agent._handle, agent._choice, percept.tobytes()
     reference = ctypes.byref(choice)
 
@@ -88,18 +91,18 @@ def step_times(agent: Agent) -> tuple[float, float]:
 
 
 def batch_time(agent: Agent, environments: int) -> float:
-    """Time a step of a :class:`~rlvc.Batch`, in which all that changes is written into its arrays.
+    """Time a step of a :class:`~rlvc.Batch`, with writing its arrays.
 
     Parameters
     ----------
     agent : Agent
     environments : int
-        In the vector.
+        Size of the vector.
 
     Returns
     -------
     float
-        Seconds a step of one environment.
+        Time of a step for each environment, in seconds.
     """
     random = np.random.default_rng(3)
     percepts = random.integers(256, size=(environments, 3), dtype=np.uint8)
@@ -126,10 +129,13 @@ def main() -> None:
     print(f"{agent}, depth {agent.statistics.depth}")
     step, empty = step_times(agent)
     rows = [
-        ("predict, in an array of a million", best(lambda: agent.predict(percepts)) / PERCEPTS),
+        ("predict, each of a million percepts", best(lambda: agent.predict(percepts)) / PERCEPTS),
         ("act and observe", step),
         ("two empty calls", empty),
-        *((f"a step in a vector of {n}", batch_time(agent, n)) for n in (16, 64, 256, 1024)),
+        *(
+            (f"act and observe, in a vector of {n}", batch_time(agent, n))
+            for n in (16, 64, 256, 1024)
+        ),
     ]
     for name, seconds in rows:
         print(f"{seconds * 1e9:8.0f} ns  {name}")

@@ -2,9 +2,9 @@
 """Files that are read only if they are files, and that are written as a whole or not at all.
 
 A new file is written without a name where the system can do that, else under a name that nobody can
-foresee. When all of it is on the disk it gets its name, and so replaces the old one at once. Whoever
-writes holds a lock on the new file. A process that is killed loses its lock: the next one that saves, or
-loads an agent, removes what it left behind.
+foresee. When all of it is on the disk it gets its name, and so replaces the old one at once.
+Whoever writes holds a lock on the new file. A process that is killed loses its lock: the next one
+that saves, or loads an agent, removes what it left behind.
 """
 
 from __future__ import annotations
@@ -95,7 +95,8 @@ def replace(path: str | Path, content: bytes) -> None:
     Raises
     ------
     StoreError
-        It cannot be written, or is a link, a folder, a FIFO or a device. The old file is still there.
+        It cannot be written, or is a link, a folder, a FIFO or a device. The old file is still
+        there.
     """
     try:
         _replace(path, content)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The objects that lie in the cells of the Tiled Gridworld (section 6.2), each seen from some angles."""
+"""The objects of the Tiled Gridworld (section 6.2): pictures from several angles."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Objects(NamedTuple):
     ----------
     names : list of str
     angles : list of int
-        In degrees, from which each is seen.
+        The angles of the pictures, in degrees.
     pictures : ndarray of uint8, [objects, angles, height, width, 3]
         Red first.
     folder : str or None
-        Where they are from; "" if they were rendered, None if they were given.
+        The folder of the pictures; "": rendered; None: from an array.
     """
 
     names: list[str]
@@ -36,12 +36,12 @@ class Objects(NamedTuple):
     folder: str | None
 
     def view(self, index: int, angle: int) -> npt.NDArray[np.uint8]:
-        """Give a picture: uint8 [height, width, 3]."""
+        """Return a picture: uint8 [height, width, 3]."""
         return np.asarray(self.pictures[index, self.angles.index(angle)])
 
 
 def given(pictures: npt.NDArray[np.uint8]) -> Objects:
-    """Take pictures from an array.
+    """Make objects from an array of pictures.
 
     Parameters
     ----------
@@ -50,21 +50,21 @@ def given(pictures: npt.NDArray[np.uint8]) -> Objects:
     Returns
     -------
     Objects
-        Their views count as angles 0, 1, ...
+        With angles 0, 1, ... for the views.
 
     Raises
     ------
     PictureError
-        It is of another dtype or shape.
+        The array has another dtype or shape.
     """
     if not isinstance(pictures, np.ndarray) or pictures.dtype != np.uint8:
         kind = getattr(pictures, "dtype", type(pictures).__name__)
-        raise PictureError(f"pictures: {kind}, not an array of uint8")
+        raise PictureError(f"pictures: {kind}, expected an array of uint8")
     if pictures.ndim == 4:
         pictures = pictures[:, None]
     if pictures.ndim != 5 or pictures.shape[4] != 3 or 0 in pictures.shape:
         raise PictureError(
-            f"pictures: {list(pictures.shape)}, not [objects, height, width, 3] or "
+            f"pictures: {list(pictures.shape)}, expected [objects, height, width, 3] or "
             "[objects, views, height, width, 3]"
         )
     names = [f"object{i + 1}" for i in range(len(pictures))]
@@ -74,17 +74,17 @@ def given(pictures: npt.NDArray[np.uint8]) -> Objects:
 def find(
     folder: str | Path | None = None, angles: Sequence[int] = (0,), wanted: int = 1
 ) -> Objects:
-    """Read the pictures of a folder, or render objects; by the code of ``run_gridworld tiled``.
+    """Read objects from a folder, or render them, like ``run_gridworld tiled``.
 
     Parameters
     ----------
     folder : str, Path or None
-        With ``objN__ANGLE.*`` as of COIL-100, or any other pictures, which are then an object each.
-        None: objects are rendered.
+        Pictures named ``objN__ANGLE.*`` as in COIL-100, or other pictures with one object each.
+        None: render objects.
     angles : sequence of int
-        In degrees, [0, 360). Objects that are not there from all of them are left out.
+        In degrees, [0, 360). Objects without a picture from each angle are left out.
     wanted : int
-        At least so many objects, [1, 65536]; rendered are just these.
+        Minimum number of objects, [1, 65536]; exactly this many are rendered.
 
     Returns
     -------
@@ -93,9 +93,9 @@ def find(
     Raises
     ------
     ImportError
-        The package has no vision module; the text says what to install.
+        The vision module is missing. The message says what to install.
     PictureError
-        There are fewer objects, or what is no picture that can be used; the text says which.
+        There are fewer objects, or a picture cannot be used. The message names it.
     RangeError
         An angle or ``wanted`` is out of range.
     """

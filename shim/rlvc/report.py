@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""A run as JSON: what ``rlvc.plot`` draws, and what ``run_gridworld --json`` writes.
+"""Reports: a run as JSON, which ``rlvc.plot`` draws.
 
-``tools/run_gridworld/REPORT.md`` explains the members. A report that :func:`make` made has the kind
-``"rlvc learn"`` and those members that make sense: ``seed``, ``interactions``, ``classes``,
-``depth``, ``last_split_step``, ``memory_bytes``, ``history``, ``tree``, and for the Binary
-Gridworld ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. Its ``history`` has
-``mean_return`` in place of ``optimal_cells``, and ``names`` says what each bit says. For the Tiled
-Gridworld, seen by an :class:`rlvc.vision.Eye`, there are ``cell``, ``objects`` and ``tests`` as
-``run_gridworld tiled --json`` has them.
+``run_gridworld --json`` writes reports, too; ``tools/run_gridworld/REPORT.md`` describes their
+members. A report of :func:`make` has the kind ``"rlvc learn"`` and the members ``seed``,
+``interactions``, ``classes``, ``depth``, ``last_split_step``, ``memory_bytes``, ``history`` (with
+``mean_return`` in place of ``optimal_cells``), ``names`` (of the bits or components) and ``tree``.
+The Binary Gridworld adds ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. The Tiled
+Gridworld with an :class:`rlvc.vision.Eye` adds ``maze``, ``cells``, ``cell``, ``objects`` and
+``tests``.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .learning.run import Run
 
 VERSION = 1
-_DRAWS = 8  # of a cell's distractors, which must all agree
+_DRAWS = 8  # percepts of a cell with other distractors, which must all have the same class
 
 
 def _cells(run: Run, env: Any) -> dict[str, Any]:
@@ -56,7 +56,7 @@ def _cells(run: Run, env: Any) -> dict[str, Any]:
 
 
 def _seen(run: Run, env: Any) -> dict[str, Any]:
-    """What lies in the cells of the Tiled Gridworld, and where the tests' features were found."""
+    """The objects in the cells of the Tiled Gridworld, and the places of the tests' features."""
     from .envs import ACTIONS, TiledGridworld
 
     world = getattr(env, "unwrapped", env)
@@ -116,12 +116,12 @@ def make(run: Run, env: Any = None) -> dict[str, Any]:
     ----------
     run : Run
     env : gymnasium.Env or None
-        What was learnt; a maze is drawn with its classes and policy.
+        The environment; a gridworld adds its maze with classes and actions.
 
     Returns
     -------
     dict
-        Fit for JSON.
+        Can be written as JSON.
     """
     statistics = run.agent.statistics
     history = [
@@ -164,7 +164,7 @@ def read(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     RunError
-        It cannot be read, is no report, or is of another version.
+        It cannot be read, is not a report, or has another version.
     """
     try:
         report = json.loads(files.read(path).decode())
@@ -173,11 +173,11 @@ def read(path: str | Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
     except json.JSONDecodeError as error:
-        raise RunError(f"{path}: line {error.lineno}: is no JSON: {error.msg}") from error
+        raise RunError(f"{path}: line {error.lineno}: is not JSON: {error.msg}") from error
     except (RecursionError, ValueError) as error:
         raise RunError(f"{path}: is no report of a run: {error}") from error
     if not isinstance(report, dict) or "version" not in report:
-        raise RunError(f"{path}: is no report of a run")
+        raise RunError(f"{path}: is not the report of a run")
     if report["version"] != VERSION:
-        raise RunError(f"{path}: is of version {report['version']}, and this reads {VERSION}")
+        raise RunError(f"{path}: has version {report['version']}, expected {VERSION}")
     return report

@@ -101,7 +101,7 @@ def test_several_runs(made):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (None, "cannot be read"), ("{", "line 1: is no JSON"), ("[]", "no report"), ("{}", "no report"),
+        (None, "cannot be read"), ("{", "line 1: is not JSON"), ("[]", "is not the report"), ("{}", "is not the report"),
         ('{"version": 2}', "version 2"), ('{"version": 1, "runs": []}', "no run"),
         ('{"version": 1}', "no tree"),
     ],

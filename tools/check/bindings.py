@@ -59,7 +59,8 @@ def folded(begin, parts, end, indent=""):
     line = begin + ", ".join(parts) + end
     if len(indent + line) <= 100:
         return indent + line
-    inner = textwrap.indent(textwrap.fill(", ".join(parts) + ",", 88), indent + "    ")
+    glued = ", ".join(part.replace(" ", "\0") for part in parts) + ","  # so that no part is broken
+    inner = textwrap.indent(textwrap.fill(glued, 88).replace("\0", " "), indent + "    ")
     return f"{indent}{begin}\n{inner}\n{indent}{end}"
 
 
@@ -141,9 +142,9 @@ class Headers:
             fields += self.fields(name, " ".join(member.split()))
         self.known[name] = python_name(name)
         self.structs[name] = [field for field, _ in fields]
-        lines = "".join(f'        ("{field}", {kind}),\n' for field, kind in fields)
+        lines = folded("_fields_ = [", [f'("{field}", {kind})' for field, kind in fields], "]", "    ")
         self.types.append(f'class {self.known[name]}(c.Structure):\n    """``{name}``."""\n\n'
-                          f"    _fields_ = [\n{lines}    ]\n")
+                          f"{lines}\n")
 
     def fields(self, struct, member):
         """The fields that a member declares: several of one type, or a callback."""

@@ -127,19 +127,14 @@ PAIR_VIEWS = 1
 class Sample(c.Structure):
     """``rlvc_sample``."""
 
-    _fields_ = [
-        ("key", c.c_uint32),
-        ("slot", c.c_uint32),
-    ]
+    _fields_ = [("key", c.c_uint32), ("slot", c.c_uint32)]
 
 
 class Samples(c.Structure):
     """``rlvc_samples``."""
 
     _fields_ = [
-        ("percepts", c.c_void_p),
-        ("sample", c.c_void_p),
-        ("percept_bytes", c.c_uint32),
+        ("percepts", c.c_void_p), ("sample", c.c_void_p), ("percept_bytes", c.c_uint32),
         ("count", c.c_uint32),
     ]
 
@@ -177,15 +172,9 @@ class Domain(c.Structure):
     """``rlvc_domain``."""
 
     _fields_ = [
-        ("ctx", c.c_void_p),
-        ("percept_bytes", c.c_uint32),
-        ("feature_bytes", c.c_uint32),
-        ("features_max", c.c_uint32),
-        ("kind", c.c_uint32),
-        ("exhibits", DOMAIN_EXHIBITS),
-        ("candidates", DOMAIN_CANDIDATES),
-        ("detect", DOMAIN_DETECT),
-        ("oracle", DOMAIN_ORACLE),
+        ("ctx", c.c_void_p), ("percept_bytes", c.c_uint32), ("feature_bytes", c.c_uint32),
+        ("features_max", c.c_uint32), ("kind", c.c_uint32), ("exhibits", DOMAIN_EXHIBITS),
+        ("candidates", DOMAIN_CANDIDATES), ("detect", DOMAIN_DETECT), ("oracle", DOMAIN_ORACLE),
         ("name", DOMAIN_NAME),
         ("check_percept", DOMAIN_CHECK_PERCEPT),
         ("check_feature", DOMAIN_CHECK_FEATURE),
@@ -196,47 +185,28 @@ class Config(c.Structure):
     """``rlvc_config``."""
 
     _fields_ = [
-        ("actions", c.c_uint32),
-        ("capacity", c.c_uint32),
-        ("classes", c.c_uint32),
-        ("features_at_once", c.c_uint32),
-        ("min_samples", c.c_uint32),
-        ("max_sweeps", c.c_uint32),
-        ("seed", c.c_uint32),
-        ("criterion", c.c_uint8),
-        ("score", c.c_uint8),
-        ("solver", c.c_uint8),
-        ("continuing", c.c_uint8),
-        ("successors", c.c_uint8),
-        ("explore", c.c_uint8),
-        ("reserved", c.c_uint8 * 2),
-        ("discount", c.c_float),
-        ("epsilon", c.c_float),
-        ("alpha", c.c_float),
-        ("alpha_known", c.c_float),
-        ("tolerance", c.c_float),
-        ("learning_rate", c.c_float),
+        ("actions", c.c_uint32), ("capacity", c.c_uint32), ("classes", c.c_uint32),
+        ("features_at_once", c.c_uint32), ("min_samples", c.c_uint32),
+        ("max_sweeps", c.c_uint32), ("seed", c.c_uint32), ("criterion", c.c_uint8),
+        ("score", c.c_uint8), ("solver", c.c_uint8), ("continuing", c.c_uint8),
+        ("successors", c.c_uint8), ("explore", c.c_uint8), ("reserved", c.c_uint8 * 2),
+        ("discount", c.c_float), ("epsilon", c.c_float), ("alpha", c.c_float),
+        ("alpha_known", c.c_float), ("tolerance", c.c_float), ("learning_rate", c.c_float),
     ]
 
 
 class Choice(c.Structure):
     """``rlvc_choice``."""
 
-    _fields_ = [
-        ("action", c.c_uint8),
-        ("exploited", c.c_uint8),
-    ]
+    _fields_ = [("action", c.c_uint8), ("exploited", c.c_uint8)]
 
 
 class Progress(c.Structure):
     """``rlvc_progress``."""
 
     _fields_ = [
-        ("work", c.c_uint32),
-        ("rounds", c.c_uint32),
-        ("splits", c.c_uint32),
-        ("done", c.c_uint8),
-        ("reserved", c.c_uint8 * 3),
+        ("work", c.c_uint32), ("rounds", c.c_uint32), ("splits", c.c_uint32),
+        ("done", c.c_uint8), ("reserved", c.c_uint8 * 3),
     ]
 
 
@@ -244,15 +214,9 @@ class Statistics(c.Structure):
     """``rlvc_statistics``."""
 
     _fields_ = [
-        ("interactions", c.c_uint64),
-        ("stored", c.c_uint32),
-        ("step", c.c_uint32),
-        ("classes", c.c_uint32),
-        ("depth", c.c_uint32),
-        ("last_split", c.c_uint32),
-        ("refused", c.c_uint32),
-        ("sweeps", c.c_uint32),
-        ("residual", c.c_float),
+        ("interactions", c.c_uint64), ("stored", c.c_uint32), ("step", c.c_uint32),
+        ("classes", c.c_uint32), ("depth", c.c_uint32), ("last_split", c.c_uint32),
+        ("refused", c.c_uint32), ("sweeps", c.c_uint32), ("residual", c.c_float),
     ]
 
 
@@ -260,12 +224,8 @@ class Split(c.Structure):
     """``rlvc_split``."""
 
     _fields_ = [
-        ("class_id", c.c_uint32),
-        ("step", c.c_uint32),
-        ("action", c.c_uint32),
-        ("samples", c.c_uint32),
-        ("log_tests", c.c_float),
-        ("score", c.c_float),
+        ("class_id", c.c_uint32), ("step", c.c_uint32), ("action", c.c_uint32),
+        ("samples", c.c_uint32), ("log_tests", c.c_float), ("score", c.c_float),
         ("log_p", c.c_float),
     ]
 
@@ -277,25 +237,16 @@ class Descriptors(c.Structure):
     """``rlvc_descriptors``."""
 
     _fields_ = [
-        ("points", c.c_uint32),
-        ("dimensions", c.c_uint32),
-        ("candidates", c.c_uint32),
-        ("draws", c.c_uint32),
-        ("radius", c.c_float),
-        ("margin", c.c_float),
-        ("form", c.c_uint8),
-        ("reserved", c.c_uint8 * 3),
+        ("points", c.c_uint32), ("dimensions", c.c_uint32), ("candidates", c.c_uint32),
+        ("draws", c.c_uint32), ("radius", c.c_float), ("margin", c.c_float),
+        ("form", c.c_uint8), ("reserved", c.c_uint8 * 3),
     ]
 
 
 class ExportInfo(c.Structure):
     """``rlvc_export_info``."""
 
-    _fields_ = [
-        ("leaves", c.c_uint32),
-        ("compact", c.c_uint32),
-        ("bytes", c.c_uint32),
-    ]
+    _fields_ = [("leaves", c.c_uint32), ("compact", c.c_uint32), ("bytes", c.c_uint32)]
 
 
 LOG_WRITER_WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_uint32)
@@ -305,11 +256,8 @@ class LogWriter(c.Structure):
     """``rlvc_log_writer``."""
 
     _fields_ = [
-        ("write", LOG_WRITER_WRITE),
-        ("ctx", c.c_void_p),
-        ("percept_bytes", c.c_uint32),
-        ("sequence", c.c_uint16),
-        ("actions", c.c_uint8),
+        ("write", LOG_WRITER_WRITE), ("ctx", c.c_void_p), ("percept_bytes", c.c_uint32),
+        ("sequence", c.c_uint16), ("actions", c.c_uint8),
     ]
 
 
@@ -317,10 +265,7 @@ class LogRecord(c.Structure):
     """``rlvc_log_record``."""
 
     _fields_ = [
-        ("percept", c.c_void_p),
-        ("reward", c.c_float),
-        ("choice", Choice),
-        ("end", c.c_uint8),
+        ("percept", c.c_void_p), ("reward", c.c_float), ("choice", Choice), ("end", c.c_uint8),
         ("kind", c.c_uint8),
     ]
 
@@ -328,18 +273,13 @@ class LogRecord(c.Structure):
 class LogCrc(c.Structure):
     """``rlvc_log_crc``."""
 
-    _fields_ = [
-        ("at", c.c_uint64),
-        ("crc", c.c_uint32),
-    ]
+    _fields_ = [("at", c.c_uint64), ("crc", c.c_uint32)]
 
 
 class LogShift(c.Structure):
     """``rlvc_log_shift``."""
 
-    _fields_ = [
-        ("multiple", c.c_uint32 * 16),
-    ]
+    _fields_ = [("multiple", c.c_uint32 * 16)]
 
 
 LOG_READER_READ = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.POINTER(c.c_uint32))
@@ -349,27 +289,13 @@ class LogReader(c.Structure):
     """``rlvc_log_reader``."""
 
     _fields_ = [
-        ("read", LOG_READER_READ),
-        ("ctx", c.c_void_p),
-        ("buffer", c.c_void_p),
-        ("room", c.c_uint32),
-        ("percept_bytes", c.c_uint32),
-        ("actions", c.c_uint32),
-        ("from", c.c_uint32),
-        ("held", c.c_uint32),
-        ("at", c.c_uint64),
-        ("start", LogCrc),
-        ("reach", LogCrc * 4),
-        ("furthest", c.c_uint64),
-        ("shift", LogShift * 4),
-        ("skipped", c.c_uint64),
-        ("damaged", c.c_uint32),
-        ("lost", c.c_uint32),
-        ("torn", c.c_uint8),
-        ("skipping", c.c_uint8),
-        ("counting", c.c_uint8),
-        ("linked", c.c_uint8),
-        ("sequence", c.c_uint16),
+        ("read", LOG_READER_READ), ("ctx", c.c_void_p), ("buffer", c.c_void_p),
+        ("room", c.c_uint32), ("percept_bytes", c.c_uint32), ("actions", c.c_uint32),
+        ("from", c.c_uint32), ("held", c.c_uint32), ("at", c.c_uint64), ("start", LogCrc),
+        ("reach", LogCrc * 4), ("furthest", c.c_uint64), ("shift", LogShift * 4),
+        ("skipped", c.c_uint64), ("damaged", c.c_uint32), ("lost", c.c_uint32),
+        ("torn", c.c_uint8), ("skipping", c.c_uint8), ("counting", c.c_uint8),
+        ("linked", c.c_uint8), ("sequence", c.c_uint16),
     ]
 
 
@@ -377,12 +303,8 @@ class MinTreeTask(c.Structure):
     """``rlvc_min_tree_task``."""
 
     _fields_ = [
-        ("row", c.c_void_p),
-        ("allowed", c.c_void_p),
-        ("rows", c.c_uint32),
-        ("features", c.c_uint32),
-        ("entries", c.c_uint32),
-        ("reserved", c.c_uint32),
+        ("row", c.c_void_p), ("allowed", c.c_void_p), ("rows", c.c_uint32),
+        ("features", c.c_uint32), ("entries", c.c_uint32), ("reserved", c.c_uint32),
         ("effort", c.c_uint64),
     ]
 
@@ -390,21 +312,15 @@ class MinTreeTask(c.Structure):
 class MinTreeSplit(c.Structure):
     """``rlvc_min_tree_split``."""
 
-    _fields_ = [
-        ("leaf", c.c_uint32),
-        ("feature", c.c_uint32),
-    ]
+    _fields_ = [("leaf", c.c_uint32), ("feature", c.c_uint32)]
 
 
 class MinTreeResult(c.Structure):
     """``rlvc_min_tree_result``."""
 
     _fields_ = [
-        ("split", c.c_void_p),
-        ("action", c.c_void_p),
-        ("leaves", c.c_uint32),
-        ("exact", c.c_uint8),
-        ("reserved", c.c_uint8 * 3),
+        ("split", c.c_void_p), ("action", c.c_void_p), ("leaves", c.c_uint32),
+        ("exact", c.c_uint8), ("reserved", c.c_uint8 * 3),
     ]
 
 
@@ -412,11 +328,8 @@ class PolicyConfig(c.Structure):
     """``rlvc_policy_config``."""
 
     _fields_ = [
-        ("tolerance", c.c_float),
-        ("percepts", c.c_uint32),
-        ("entries", c.c_uint32),
-        ("reserved", c.c_uint32),
-        ("effort", c.c_uint64),
+        ("tolerance", c.c_float), ("percepts", c.c_uint32), ("entries", c.c_uint32),
+        ("reserved", c.c_uint32), ("effort", c.c_uint64),
     ]
 
 
@@ -424,15 +337,9 @@ class PolicyInfo(c.Structure):
     """``rlvc_policy_info``."""
 
     _fields_ = [
-        ("classes", c.c_uint32),
-        ("collapsed", c.c_uint32),
-        ("leaves", c.c_uint32),
-        ("percepts", c.c_uint32),
-        ("features", c.c_uint32),
-        ("bytes", c.c_uint32),
-        ("exact", c.c_uint8),
-        ("as_agent", c.c_uint8),
-        ("reserved", c.c_uint8 * 2),
+        ("classes", c.c_uint32), ("collapsed", c.c_uint32), ("leaves", c.c_uint32),
+        ("percepts", c.c_uint32), ("features", c.c_uint32), ("bytes", c.c_uint32),
+        ("exact", c.c_uint8), ("as_agent", c.c_uint8), ("reserved", c.c_uint8 * 2),
     ]
 
 
@@ -452,12 +359,8 @@ class Store(c.Structure):
     """``rlvc_store``."""
 
     _fields_ = [
-        ("ctx", c.c_void_p),
-        ("slot_bytes", c.c_uint32),
-        ("read", STORE_READ),
-        ("write", STORE_WRITE),
-        ("erase", STORE_ERASE),
-        ("sync", STORE_SYNC),
+        ("ctx", c.c_void_p), ("slot_bytes", c.c_uint32), ("read", STORE_READ),
+        ("write", STORE_WRITE), ("erase", STORE_ERASE), ("sync", STORE_SYNC),
     ]
 
 
@@ -465,12 +368,8 @@ class SnapshotInfo(c.Structure):
     """``rlvc_snapshot_info``."""
 
     _fields_ = [
-        ("version", c.c_uint32),
-        ("sequence", c.c_uint32),
-        ("slot", c.c_uint32),
-        ("bytes", c.c_uint32),
-        ("percept_bytes", c.c_uint32),
-        ("feature_bytes", c.c_uint32),
+        ("version", c.c_uint32), ("sequence", c.c_uint32), ("slot", c.c_uint32),
+        ("bytes", c.c_uint32), ("percept_bytes", c.c_uint32), ("feature_bytes", c.c_uint32),
         ("config", Config),
     ]
 
@@ -479,9 +378,7 @@ class Thresholds(c.Structure):
     """``rlvc_thresholds``."""
 
     _fields_ = [
-        ("components", c.c_uint32),
-        ("cutpoints", c.c_uint32),
-        ("oblique", c.c_uint8),
+        ("components", c.c_uint32), ("cutpoints", c.c_uint32), ("oblique", c.c_uint8),
         ("reserved", c.c_uint8 * 3),
     ]
 
@@ -490,9 +387,7 @@ class Threshold(c.Structure):
     """``rlvc_threshold``."""
 
     _fields_ = [
-        ("cutpoint", c.c_float),
-        ("slope", c.c_float),
-        ("component", c.c_uint16),
+        ("cutpoint", c.c_float), ("slope", c.c_float), ("component", c.c_uint16),
         ("other", c.c_uint16),
     ]
 
@@ -501,9 +396,7 @@ class GridworldMaze(c.Structure):
     """``gridworld_maze``."""
 
     _fields_ = [
-        ("width", c.c_uint32),
-        ("height", c.c_uint32),
-        ("free_cells", c.c_uint32),
+        ("width", c.c_uint32), ("height", c.c_uint32), ("free_cells", c.c_uint32),
         ("cells", c.c_void_p),
     ]
 
@@ -511,55 +404,37 @@ class GridworldMaze(c.Structure):
 class GridworldError(c.Structure):
     """``gridworld_error``."""
 
-    _fields_ = [
-        ("line", c.c_uint32),
-        ("column", c.c_uint32),
-        ("what", c.c_char_p),
-    ]
+    _fields_ = [("line", c.c_uint32), ("column", c.c_uint32), ("what", c.c_char_p)]
 
 
 class GridworldRandom(c.Structure):
     """``gridworld_random``."""
 
-    _fields_ = [
-        ("state", c.c_uint64),
-    ]
+    _fields_ = [("state", c.c_uint64)]
 
 
 class Gridworld(c.Structure):
     """``gridworld``."""
 
     _fields_ = [
-        ("maze", c.c_void_p),
-        ("random", GridworldRandom),
-        ("distractors", c.c_uint32),
-        ("slip", c.c_uint32),
-        ("cell", c.c_uint32),
+        ("maze", c.c_void_p), ("random", GridworldRandom), ("distractors", c.c_uint32),
+        ("slip", c.c_uint32), ("cell", c.c_uint32),
     ]
 
 
 class ShimEntry(c.Structure):
     """``rlvc_shim_entry``."""
 
-    _fields_ = [
-        ("name", c.c_char_p),
-        ("value", c.c_size_t),
-    ]
+    _fields_ = [("name", c.c_char_p), ("value", c.c_size_t)]
 
 
 class ShimLog(c.Structure):
     """``rlvc_shim_log``."""
 
     _fields_ = [
-        ("percepts", c.c_void_p),
-        ("next", c.c_void_p),
-        ("choices", c.c_void_p),
-        ("rewards", c.c_void_p),
-        ("ends", c.c_void_p),
-        ("count", c.c_size_t),
-        ("bytes", c.c_uint32),
-        ("actions", c.c_uint32),
-        ("resume", c.c_uint32),
+        ("percepts", c.c_void_p), ("next", c.c_void_p), ("choices", c.c_void_p),
+        ("rewards", c.c_void_p), ("ends", c.c_void_p), ("count", c.c_size_t),
+        ("bytes", c.c_uint32), ("actions", c.c_uint32), ("resume", c.c_uint32),
     ]
 
 
@@ -567,52 +442,32 @@ class ShimRecords(c.Structure):
     """``rlvc_shim_records``."""
 
     _fields_ = [
-        ("percepts", c.c_void_p),
-        ("next", c.c_void_p),
-        ("choices", c.c_void_p),
-        ("rewards", c.c_void_p),
-        ("ends", c.c_void_p),
-        ("interactions", c.c_size_t),
-        ("fault_at", c.c_size_t),
-        ("percept_bytes", c.c_uint32),
-        ("actions", c.c_uint32),
-        ("torn", c.c_uint32),
-        ("reserved", c.c_uint32),
+        ("percepts", c.c_void_p), ("next", c.c_void_p), ("choices", c.c_void_p),
+        ("rewards", c.c_void_p), ("ends", c.c_void_p), ("interactions", c.c_size_t),
+        ("fault_at", c.c_size_t), ("percept_bytes", c.c_uint32), ("actions", c.c_uint32),
+        ("torn", c.c_uint32), ("reserved", c.c_uint32),
     ]
 
 
 class ShimText(c.Structure):
     """``rlvc_shim_text``."""
 
-    _fields_ = [
-        ("bytes", c.c_void_p),
-        ("room", c.c_size_t),
-        ("size", c.c_size_t),
-    ]
+    _fields_ = [("bytes", c.c_void_p), ("room", c.c_size_t), ("size", c.c_size_t)]
 
 
 class ShimMemory(c.Structure):
     """``rlvc_shim_memory``."""
 
-    _fields_ = [
-        ("bytes", c.c_void_p),
-        ("size", c.c_size_t),
-    ]
+    _fields_ = [("bytes", c.c_void_p), ("size", c.c_size_t)]
 
 
 class ShimPython(c.Structure):
     """``rlvc_shim_python``."""
 
     _fields_ = [
-        ("exhibits", c.c_void_p),
-        ("candidates", c.c_void_p),
-        ("detect", c.c_void_p),
-        ("oracle", c.c_void_p),
-        ("name", c.c_void_p),
-        ("type", c.c_void_p),
-        ("value", c.c_void_p),
-        ("traceback", c.c_void_p),
-        ("depth", c.c_uint32),
+        ("exhibits", c.c_void_p), ("candidates", c.c_void_p), ("detect", c.c_void_p),
+        ("oracle", c.c_void_p), ("name", c.c_void_p), ("type", c.c_void_p),
+        ("value", c.c_void_p), ("traceback", c.c_void_p), ("depth", c.c_uint32),
         ("reserved", c.c_uint32),
     ]
 
@@ -620,49 +475,32 @@ class ShimPython(c.Structure):
 class VisionError(c.Structure):
     """``rlvc_vision_error``."""
 
-    _fields_ = [
-        ("text", c.c_char * 256),
-    ]
+    _fields_ = [("text", c.c_char * 256)]
 
 
 class VisionConfig(c.Structure):
     """``rlvc_vision_config``."""
 
     _fields_ = [
-        ("descriptor", c.c_uint32),
-        ("points", c.c_uint32),
-        ("radius", c.c_uint32),
-        ("form", c.c_uint8),
-        ("normalise", c.c_uint8),
-        ("axes", c.c_uint8),
-        ("reserved", c.c_uint8),
-        ("sd", c.c_float),
-        ("si", c.c_float),
-        ("k", c.c_float),
-        ("threshold", c.c_float),
-        ("sigma", c.c_float),
+        ("descriptor", c.c_uint32), ("points", c.c_uint32), ("radius", c.c_uint32),
+        ("form", c.c_uint8), ("normalise", c.c_uint8), ("axes", c.c_uint8),
+        ("reserved", c.c_uint8), ("sd", c.c_float), ("si", c.c_float), ("k", c.c_float),
+        ("threshold", c.c_float), ("sigma", c.c_float),
     ]
 
 
 class Point(c.Structure):
     """``rlvc_point``."""
 
-    _fields_ = [
-        ("x", c.c_float),
-        ("y", c.c_float),
-        ("response", c.c_float),
-    ]
+    _fields_ = [("x", c.c_float), ("y", c.c_float), ("response", c.c_float)]
 
 
 class Picture(c.Structure):
     """``rlvc_picture``."""
 
     _fields_ = [
-        ("pixels", c.c_void_p),
-        ("stride", c.c_ssize_t),
-        ("width", c.c_uint32),
-        ("height", c.c_uint32),
-        ("format", c.c_uint32),
+        ("pixels", c.c_void_p), ("stride", c.c_ssize_t), ("width", c.c_uint32),
+        ("height", c.c_uint32), ("format", c.c_uint32),
     ]
 
 

@@ -88,7 +88,9 @@ def load_optional(name: str, functions: Functions) -> Any:
 def check_version(found: str, path: Path) -> None:
     """Raise LibraryError if the library and the package have different versions."""
     if found != __version__:
-        raise LibraryError(f"{path}: has version {found}, but the package has version {__version__}")
+        raise LibraryError(
+            f"{path}: has version {found}, but the package has version {__version__}"
+        )
 
 
 def check_layout(entries: dict[str, int], path: Path) -> None:
@@ -99,7 +101,9 @@ def check_layout(entries: dict[str, int], path: Path) -> None:
             expected[f"{name}.{field[0]}"] = getattr(struct, field[0]).offset
         for key, value in expected.items():
             if entries.get(key) != value:
-                raise LibraryError(f"{path}: {key}: size or offset {entries.get(key)}, expected {value}")
+                raise LibraryError(
+                    f"{path}: {key}: size or offset {entries.get(key)}, expected {value}"
+                )
     known = set(STRUCTS)
     for key in entries:
         owner, _, field_name = key.partition(".")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The config of an agent: ``rlvc_config`` with its defaults."""
+"""The config of an agent."""
 
 from __future__ import annotations
 
 import ctypes
 import dataclasses
 import math
-from typing import Literal
+from typing import Literal, get_args
 
 from .. import _native
 from ..errors import ConfigError
@@ -16,75 +16,76 @@ Score = Literal["gain", "ranks"]
 Solver = Literal["value_iteration", "policy_iteration", "q_learning", "sarsa"]
 Explore = Literal["uniform", "directed"]
 
-# Field: its names. The name n of field f is the constant F_N of agent.h.
+# A field and its names. The name n of field f is the constant RLVC_F_N of agent.h.
 CHOICES: dict[str, tuple[str, ...]] = {
-    "criterion": ("returns", "residual"),
-    "score": ("gain", "ranks"),
-    "solver": ("value_iteration", "policy_iteration", "q_learning", "sarsa"),
-    "explore": ("uniform", "directed"),
+    "criterion": get_args(Criterion),
+    "score": get_args(Score),
+    "solver": get_args(Solver),
+    "explore": get_args(Explore),
 }
 
 
 @dataclasses.dataclass(frozen=True)
 class Config:
-    """How an agent learns: chosen once, when it is made.
+    """How an agent learns. It is fixed when the agent is made.
 
     Parameters
     ----------
     actions : int
-        How many actions there are, [1, 255].
+        Number of actions, [1, 255].
     capacity : int
-        Interactions the ring holds, [1, 2**31 - 1]; when it is full the oldest leaves. A truncated
-        or torn episode takes the room of one more.
+        Capacity of the replay buffer in interactions, [1, 2**31 - 1]. When it is full, the oldest
+        interaction is dropped. Each truncated or unfinished episode takes the room of one more.
     classes : int
-        Classes the tree may grow to, [1, 65535].
+        Maximum number of classes, [1, 65535].
     features_at_once : int or None
-        Candidate features whose bit columns are held in memory together, [1, 64]. None: 64, or as
-        many features as there are if that is known and less.
+        Number of candidate features that are compared at a time, [1, 64]; each needs memory for a
+        bit column. None: 64, or the number of features if that is known and smaller.
     min_samples : int
-        A class with fewer samples than this is not tested for a split, [2, 2**31 - 1].
+        A class with fewer samples than this is not split, [2, 2**31 - 1].
     max_sweeps : int
-        Sweeps after which a batch solver stops unconverged, [1, 2**31 - 1].
+        Maximum number of sweeps of a batch solver, [1, 2**31 - 1].
     seed : int
-        Of the exploration, [0, 2**32 - 1].
+        Seed of the exploration, [0, 2**32 - 1].
     criterion : {"residual", "returns"}
-        Which classes are aliased (section 4.2.2): by one-step returns on one growing database, or
-        by truncated discounted returns on a fresh one each step, as published.
+        How aliased classes are detected (section 4.2.2). residual: by one-step returns, with all
+        interactions so far. returns: by truncated discounted returns, with new interactions for
+        each learning step, as published.
     score : {"gain", "ranks"}
-        How well a feature explains a partition (section 4.2.3); or, without a partition, the
-        rank-sum test of the targets with the feature against those without it (not for a domain
-        with its own ``oracle``; ``capacity`` below 2**21).
+        How features are compared (section 4.2.3). gain: information gain for the best cutpoint of
+        the targets. ranks: rank-sum test of the targets with and without the feature (not with an
+        ``oracle``; ``capacity`` below 2**21).
     solver : {"value_iteration", "policy_iteration", "q_learning", "sarsa"}
-        Where the values of the classes come from.
+        How the values of the classes are computed.
     continuing : bool
-        Whether the window of definition 1 runs on through a terminated interaction.
+        Whether the returns of definition 1 continue after a terminated interaction.
     successors : bool or None
-        Whether a class is aliased, too, if what follows the same action differs, even while all
-        rewards are alike (residual criterion; the candidates must fit into ``features_at_once``).
-        None: for up to 64 bits yes, else no.
+        Whether to also split a class if the next percepts after the same action differ, even while
+        all rewards are equal (residual criterion; the candidates must fit into
+        ``features_at_once``). None: yes for up to 64 bits, else no.
     explore : {"directed", "uniform"}
-        How to explore: one action in two leads to the nearest class-action pair that was little
-        tried, the other is drawn with preference for what was seldom tried in the class; or all
-        alike, as published.
+        How to explore. directed: one action in two leads towards the nearest class-action pair with
+        few tries, the other prefers actions with few tries in the class. uniform: every action is
+        equally likely, as published.
     discount : float
-        gamma of equation (1), [0, 1].
+        Discount factor, gamma of equation (1), [0, 1].
     epsilon : float
-        Probability that ``act`` explores at random, [0, 1].
+        Probability that ``act`` explores, [0, 1].
     alpha : float
-        The probability that the tree ever takes up a feature while there is nothing to learn, at
-        most, (0, 1]: all learning steps share it.
+        Significance level, (0, 1]: the probability that an irrelevant feature ever enters the tree,
+        over all learning steps together.
     alpha_known : float
-        A split by a feature that the tree tests already is kept if its corrected p-value is below
-        this, (0, 1]; below the share of ``alpha`` without effect.
+        Significance level of a split by a feature that is in the tree already, (0, 1]. No effect if
+        it is below the level that ``alpha`` gives.
     tolerance : float
-        Of a batch solver's values, in units of reward, (0, 1e12].
+        Accuracy of the values of a batch solver, in units of reward, (0, 1e12].
     learning_rate : float
-        Of the incremental solvers, (0, 1].
+        Learning rate of q_learning and sarsa, (0, 1].
 
     Notes
     -----
-    The fields are those of ``rlvc_config`` in ``core/include/rlvc/agent.h``, which says more. They
-    are checked when an agent is made: :class:`ConfigError` then names the field and its range.
+    The fields are checked when an agent is made. ``rlvc_config`` in ``core/include/rlvc/agent.h``
+    has more details.
     """
 
     actions: int
@@ -108,7 +109,7 @@ class Config:
     learning_rate: float = 0.1
 
     def replace(self, **changes: object) -> Config:
-        """Give a copy with some fields changed.
+        """Return a copy with some fields changed.
 
         Parameters
         ----------
@@ -129,19 +130,20 @@ class Config:
 def _native_value(field: str, kind: object, value: object) -> object:
     if field in CHOICES:
         if value not in CHOICES[field]:
-            raise ConfigError(f"{field}: {value!r} is none of {', '.join(CHOICES[field])}")
+            raise ConfigError(f"{field}: {value!r} is not one of {', '.join(CHOICES[field])}")
         return getattr(_native, f"{field}_{value}".upper())
     try:
         if kind is ctypes.c_float:
             number = float(value)  # type: ignore[arg-type]
             if not math.isfinite(number):
-                raise ConfigError(f"{field}: {value!r} is no finite number")
+                raise ConfigError(f"{field}: {value!r} is not a finite number")
             return number
         whole = int(value.__index__())  # type: ignore[attr-defined]
     except (AttributeError, TypeError, ValueError) as error:
         if isinstance(error, ConfigError):
             raise
-        raise ConfigError(f"{field}: {value!r} is no number of the kind that is wanted") from None
+        kind_name = "a number" if kind is ctypes.c_float else "an int"
+        raise ConfigError(f"{field}: {value!r} is not {kind_name}") from None
     limit = 2 ** (8 * ctypes.sizeof(kind))  # type: ignore[arg-type]
     if not 0 <= whole < limit:
         raise ConfigError(f"{field}: {whole} is out of range")
@@ -163,7 +165,7 @@ def to_native(config: Config, domain: _native.Domain) -> _native.Config:
     Raises
     ------
     ConfigError
-        A field is out of range; the text names it.
+        A field is out of range. The message names it.
     """
     native = _native.Config()
     reference = ctypes.byref(native)

@@ -40,8 +40,8 @@ class Guard:
 class Callbacks:
     """The methods of a domain in Python, as ``native/python.c`` calls them.
 
-    They get addresses and return a number. What they raise comes out of the agent's call, and so does
-    Ctrl-C at any moment.
+    They get addresses and return a number. What they raise comes out of the agent's call, and so
+    does Ctrl-C at any moment.
     """
 
     def __init__(self, domain: Domain, guard: Guard) -> None:

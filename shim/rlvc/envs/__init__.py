@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The paper's mazes as Gymnasium environments: ``rlvc/BinaryGridworld-v0``, ``rlvc/TiledGridworld-v0``.
 
-They play in the maze of ``examples/gridworld``, as the tool ``run_gridworld`` does. ``import
-rlvc.envs`` registers them.
+They use the maze of ``examples/gridworld``, like the tool ``run_gridworld``. ``import rlvc.envs``
+registers them.
 """
 
 try:
@@ -18,7 +18,7 @@ __all__ = ["ACTIONS", "SMALL", "BinaryGridworld", "Gridworld", "Maze", "TiledGri
 
 
 def register() -> None:
-    """Register the environments; doing so twice does nothing."""
+    """Register the environments. Calling it again does nothing."""
     for kind in (BinaryGridworld, TiledGridworld):
         name = f"rlvc/{kind.__name__}-v0"
         if name not in gymnasium.registry:

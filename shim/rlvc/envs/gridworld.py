@@ -21,7 +21,7 @@ _Observation = TypeVar("_Observation")
 
 
 class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
-    """What the two environments have in common: a maze, and an agent's place in it.
+    """Base class of the environments: a maze with an agent in it.
 
     A move into the exit earns 100 and ends the episode; any other earns -1. An episode starts at a
     random free cell.
@@ -42,13 +42,16 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
             except (OSError, UnicodeDecodeError) as error:
                 raise MazeError(f"{maze}: cannot be read: {error}") from error
         if render_mode not in (None, "ansi"):
-            raise ConfigError(f"render_mode: {render_mode!r} is not ansi")
+            raise ConfigError(f"render_mode: {render_mode!r} is not None or 'ansi'")
         self.maze = Maze(maze)
         self.distractors = distractors
         self.slip = slip
         self.render_mode = render_mode
-        if not 0 <= distractors <= _native.BITS_MAX or self.maze.bits(distractors) > _native.BITS_MAX:
-            raise ConfigError(f"distractors: {distractors}: at most {_native.BITS_MAX} bits in all")
+        if (
+            not 0 <= distractors <= _native.BITS_MAX
+            or self.maze.bits(distractors) > _native.BITS_MAX
+        ):
+            raise ConfigError(f"distractors: {distractors}: more than {_native.BITS_MAX} bits")
         self.action_space = spaces.Discrete(4)
         self._world = _native.Gridworld()
         self._over = True
@@ -67,7 +70,7 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
 
     @abc.abstractmethod
     def _observe(self) -> _Observation:
-        """What is seen from the agent's cell."""
+        """Return the observation in the agent's cell."""
 
     def _info(self) -> dict[str, Any]:
         return {"x": self._world.cell % self.maze.width, "y": self._world.cell // self.maze.width}
@@ -80,14 +83,14 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         Parameters
         ----------
         seed : int or None
-            Of everything random from here on; None goes on.
+            Seed of all random numbers from now on. None: continue the sequence.
         options : dict or None
-            Not looked at.
+            Ignored.
 
         Returns
         -------
         tuple
-            The observation, and {"x", "y"}: where the agent is, in cells.
+            The observation, and {"x", "y"}: the agent's cell.
         """
         fresh = self._np_random is None
         super().reset(seed=seed)
@@ -108,12 +111,12 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         Returns
         -------
         tuple
-            The observation, the reward, terminated, truncated (never), and the place.
+            The observation, the reward, terminated, truncated (always False), and the agent's cell.
 
         Raises
         ------
         gymnasium.error.InvalidAction
-            There is no such action.
+            The action does not exist.
         gymnasium.error.ResetNeeded
             The episode is over.
         """
@@ -129,7 +132,7 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         return self._observe(), float(reward.value), self._over, False, self._info()
 
     def render(self) -> str | None:
-        """Draw the maze as text, with ``@`` for the agent."""
+        """Return the maze as text, with ``@`` for the agent."""
         if self.render_mode is None:
             return None
         rows = [list(row) for row in self.maze.rows]
@@ -139,27 +142,27 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
 
 
 class BinaryGridworld(Gridworld[npt.NDArray[np.int8]]):
-    """The Binary Gridworld (section 6.1): a maze whose cells are seen as strings of bits.
+    """The Binary Gridworld (section 6.1): observations are bits.
 
-    An observation is MultiBinary: x, lowest bit first; distractors, drawn anew each time; y, lowest
-    bit first. See :class:`Gridworld` for the rest.
+    An observation is MultiBinary: x, lowest bit first; random distractors; y, lowest bit first. See
+    :class:`Gridworld` for rewards and episodes.
 
     Parameters
     ----------
     maze : str, Path or None
-        A maze's text, or a file with it; None is the paper's.
+        The text of a maze, or a file; None: the paper's maze.
     distractors : int
-        Bits that say nothing.
+        Number of irrelevant bits.
     slip : float
-        Probability that a move goes astray, in one of the three other directions.
+        Probability that a move goes in one of the three other directions.
     render_mode : {"ansi"} or None
 
     Raises
     ------
     MazeError
-        The maze is none.
+        The maze is invalid.
     ConfigError
-        ``slip`` is not in [0, 1], or an observation would have more than 1024 bits.
+        ``slip`` is not in [0, 1], or an observation has more than 1024 bits.
     """
 
     def __init__(

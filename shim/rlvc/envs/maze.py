@@ -14,7 +14,7 @@ from ..errors import MazeError
 _CELLS_MAX = 256 * 256
 
 ACTIONS = ("up", "right", "down", "left")
-"""What the actions 0 to 3 are; y grows downwards."""
+"""The actions 0 to 3; y grows downwards."""
 
 
 class Maze:
@@ -23,19 +23,19 @@ class Maze:
     Parameters
     ----------
     text : str or None
-        A line for each row from the top: ``#`` wall, ``.`` free, ``*`` exit. None: the maze of
-        section 6.1, Sutton's, of 9 x 6 cells.
+        One line for each row, from the top: ``#`` wall, ``.`` free, ``*`` exit. None: the maze of
+        section 6.1 (Sutton's), 9 x 6 cells.
 
     Attributes
     ----------
     rows : list of str
     width, height : int
-        In cells.
+        Size in cells.
 
     Raises
     ------
     MazeError
-        The text is no maze; the message says in which line and column, and why.
+        The text is invalid. The message names the line, the column and the fault.
     """
 
     def __init__(self, text: str | None = None) -> None:
@@ -62,18 +62,18 @@ class Maze:
         self.rows = [signs[y * self.width : (y + 1) * self.width] for y in range(self.height)]
 
     def bits(self, distractors: int) -> int:
-        """Give the number of bits of a percept."""
+        """Return the number of bits of a percept."""
         return int(_native.call.rlvc_shim_maze_bits(ctypes.byref(self.native), distractors))
 
     def percepts(self, distractors: int, seed: int = 0) -> npt.NDArray[np.uint8]:
-        """Give a percept of each cell, by rows from the top, with distractors drawn at random.
+        """Return a percept of each cell, by rows from the top, with random distractors.
 
         Parameters
         ----------
         distractors : int
-            Bits of a percept that say nothing.
+            Number of irrelevant bits.
         seed : int
-            Of the distractors.
+            Seed of the distractors.
 
         Returns
         -------
@@ -94,4 +94,4 @@ class Maze:
 
 
 SMALL = "....\n.#..\n...*\n"
-"""A maze of ten cells, about as large as that of figure 4."""
+"""A maze of ten cells, about as large as in figure 4."""

@@ -16,45 +16,44 @@ from .gridworld import Gridworld
 
 
 class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
-    """The Tiled Gridworld (section 6.2): a maze in whose cells objects lie, seen as pictures.
+    """The Tiled Gridworld (section 6.2): observations are pictures of the objects in the cells.
 
-    An observation is a Box of uint8 [height, width, 3], red first: a picture of the object in the
-    agent's cell, from one of its angles at random; black at the exit. See :class:`Gridworld` for
-    the rest. An :class:`rlvc.vision.Eye` makes percepts of it.
+    An observation is uint8 [height, width, 3], red first: a picture of the object in the agent's
+    cell, from a random angle; at the exit it is black. See :class:`Gridworld` for rewards and
+    episodes. :class:`rlvc.vision.Eye` turns observations into percepts.
 
     Parameters
     ----------
     maze : str, Path or None
-        A maze's text, such as :data:`SMALL`, or a file with it; None is Sutton's, of 46 cells.
+        The text of a maze, such as :data:`SMALL`, or a file; None: Sutton's maze of 46 cells.
     pictures : ndarray, str, Path or None
-        An array of uint8 [objects, height, width, 3] or [objects, views, height, width, 3]; or a
-        folder such as that of COIL-100; None renders objects. The two last need the vision module:
-        :func:`rlvc.objects.find` reads and renders.
+        An array of uint8 [objects, height, width, 3] or [objects, views, height, width, 3]; a
+        folder of pictures, such as COIL-100; None: rendered objects. Folders and rendering need the
+        vision module: see :func:`rlvc.objects.find`.
     angles : sequence of int
-        In degrees, from which objects are seen; of no meaning for an array.
+        Angles of the pictures, in degrees; ignored with an array.
     placement : int or None
-        Of which objects lie where: a number puts them at random, with that seed; None in their
-        order.
+        Seed of a random assignment of objects to cells. None: in order.
     slip : float
-        Probability that a move goes astray, in one of the three other directions.
+        Probability that a move goes in one of the three other directions.
     render_mode : {"ansi"} or None
 
     Attributes
     ----------
     objects : rlvc.objects.Objects
     object_of : ndarray of int, [height * width]
-        Which object lies in each cell; -1 where none does.
+        The object in each cell; -1: none.
 
     Raises
     ------
     MazeError
-        The maze is none.
+        The maze is invalid.
     PictureError
-        There are fewer objects than cells, or what is no picture that can be used.
+        There are fewer objects than cells, or a picture cannot be used.
     ConfigError
         ``slip`` is not in [0, 1].
     ImportError
-        The package has no vision module; the text says what to install.
+        The vision module is missing. The message says what to install.
     """
 
     def __init__(
@@ -75,7 +74,7 @@ class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
             self.objects = objects.given(pictures)
         count = len(self.objects.names)
         if count < len(cells):
-            raise PictureError(f"pictures: of {count} objects, and the maze has {len(cells)} cells")
+            raise PictureError(f"pictures: {count} objects for {len(cells)} cells")
         order = np.arange(count)
         if placement is not None:
             np.random.default_rng(placement).shuffle(order)

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""Encoders: from the observations of Gymnasium's spaces to percepts.
+"""Encoders: from observations of Gymnasium's spaces to percepts.
 
 ==================  =====================================================================
 space               bits
 ==================  =====================================================================
-Discrete            the number less ``start``, in binary, lowest bit first
-MultiDiscrete       each number likewise
-MultiBinary         as they are
-Dict, Tuple         those of their parts, one after another
+Discrete            the number minus ``start``, in binary, lowest bit first
+MultiDiscrete       each number, as for Discrete
+MultiBinary         the bits themselves
+Dict, Tuple         the bits of all parts, in order
 ==================  =====================================================================
 
-Where there is a Box, percepts are vectors of real numbers instead (:class:`rlvc.Thresholds`): each
-element of the Box is a component, and so is each bit of the other parts, as 0 or 1.
+If the space contains a Box, percepts are vectors of real numbers (:class:`rlvc.Thresholds`): each
+element of the Box is a component, and each bit of the other parts is a component 0 or 1.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Columns = npt.NDArray[Any]
 
 
 def _binary(values: Any, starts: Any, widths: Sequence[int]) -> Columns:
-    """Numbers [n, d] in binary, of so many bits each, lowest first: [n, sum(widths)]."""
+    """Numbers [n, d] in binary, with `widths` bits each, lowest first: [n, sum(widths)]."""
     numbers = (np.asarray(values, np.int64) - starts).reshape(-1, len(widths))
     columns = [numbers[:, i] >> bit & 1 for i, width in enumerate(widths) for bit in range(width)]
     return np.stack(columns, axis=1).astype(np.bool_)
@@ -44,7 +44,7 @@ def _width(count: int) -> int:
 
 
 class _Part:
-    """A space without parts of its own: where it lies in an observation, and its bits."""
+    """A space that has no parts: its path in the observation, and its bits."""
 
     def __init__(
         self,
@@ -106,7 +106,7 @@ def _box_part(space: Any, path: tuple[Any, ...]) -> _Part:
 
 
 class Numbers:
-    """Arrays of numbers of one shape, encoded as a Box is; for logs, where Gymnasium may be missing.
+    """A space of arrays of numbers, encoded like a Box; for logs, without Gymnasium.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
         return [_Part(path, names, multi, space.shape, whole)]
     if isinstance(space, spaces.MultiBinary):
         size = int(np.prod(space.shape))
-        names = [f"{label or 'x'}[{i}]" for i in range(size)]
+        names = [f"{label}[{i}]" if label else f"bit {i}" for i in range(size)]
         return [
             _Part(
                 path,
@@ -166,7 +166,7 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
 
 
 def _has_reals(space: Any) -> bool:
-    """Whether a space has a Box in it."""
+    """Whether a space contains a Box."""
     if isinstance(space, Numbers):
         return True
     from gymnasium import spaces
@@ -179,30 +179,30 @@ def _has_reals(space: Any) -> bool:
 
 
 class Encoder:
-    """Turns the observations of a space into percepts of bits, or of real numbers if it has a Box.
+    """Turns observations into percepts of bits, or of real numbers if the space contains a Box.
 
     Parameters
     ----------
     space : gymnasium.Space or Numbers
-        Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of such.
+        Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of these.
     thresholds : int
-        At most so many cutpoints for each component, where percepts are real numbers; 0: all.
+        Maximum number of cutpoints for each component of real numbers; 0: no limit.
 
     Attributes
     ----------
     domain : Domain
-        Of the percepts: :class:`rlvc.Bits` or :class:`rlvc.Thresholds`.
+        Domain of the percepts: :class:`rlvc.Bits` or :class:`rlvc.Thresholds`.
     names : list of str
-        What each bit or component says.
+        Name of each bit or component.
 
     Raises
     ------
     SpaceError
-        The space cannot be encoded, or would need more than 1024 bits or components.
+        The space cannot be encoded, or needs more than 1024 bits or components.
 
     Notes
     -----
-    Numbers beyond 1e15, such as infinite ones, count as 1e15.
+    Elements beyond +-1e15, also infinite ones, are clipped to it.
     """
 
     domain: Domain
@@ -214,9 +214,8 @@ class Encoder:
         size, real = len(self.names), _has_reals(space)
         if size > (_native.THRESHOLDS_COMPONENTS_MAX if real else _native.BITS_MAX):
             raise SpaceError(
-                f"{space} would need {size} {'components' if real else 'bits'}, and a percept has at "
-                f"most {_native.BITS_MAX}: "
-                "give an encoder of your own, or for pictures an rlvc.vision.Eye"
+                f"{space} needs {size} {'components' if real else 'bits'}, and a percept has at most "
+                f"{_native.BITS_MAX}: pass an encoder, for pictures an rlvc.vision.Eye"
             )
         self.domain = Thresholds(size, thresholds) if real else Bits(size)
 
@@ -243,13 +242,13 @@ class Encoder:
         Raises
         ------
         PerceptError
-            It is no element of the space, or has a NaN in it.
+            It is not an element of the space, or contains NaN.
         """
         columns = [part.encode(observation) for part in self._parts]
         return bytes(self._packed(np.concatenate(columns)[None])[0].tobytes())
 
     def encode_many(self, observations: Any) -> npt.NDArray[Any]:
-        """Encode a batch, as vector environments give it: arrays [n, ...], in dicts or tuples.
+        """Encode a batch as vector environments return it: arrays [n, ...], in dicts or tuples.
 
         Parameters
         ----------
@@ -273,12 +272,12 @@ class Encoder:
         return columns.astype(np.float32)
 
     def explain(self, text: str) -> str:
-        """Replace ``bit N`` or ``x[N]`` by what the bit or component says.
+        """Replace ``bit N`` and ``x[N]`` by the name of the bit or component.
 
         Parameters
         ----------
         text : str
-            A tree that ``Agent.print`` gave.
+            A result of :meth:`rlvc.Agent.print`.
 
         Returns
         -------
@@ -288,7 +287,7 @@ class Encoder:
 
 
 def explain(text: str, names: Sequence[str]) -> str:
-    """Replace ``bit N`` or ``x[N]`` in a text by the N-th name.
+    """Replace ``bit N`` and ``x[N]`` in a text by the name number N.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ from . import boundary
 
 
 class Environment:
-    """One environment, or a vector of them, as batches of live transitions."""
+    """A Gymnasium environment or a vector of them, through one interface."""
 
     def __init__(self, env: Any, seed: int) -> None:
         boundary.check(env)
@@ -32,7 +32,7 @@ class Environment:
         self.dead = np.zeros(self.count, np.bool_)
 
     def split(self, batch: Any) -> list[Any]:
-        """The observations of a batch, one by one."""
+        """Return the observations of a batch as a list."""
         if not self.vector:
             return [batch]
         from gymnasium.vector.utils import iterate
@@ -40,9 +40,9 @@ class Environment:
         return list(iterate(self.env.observation_space, batch))
 
     def step(self, actions: npt.NDArray[Any]) -> tuple[list[Any], Any, Any, Any]:
-        """Act in every environment: s', rewards, terminated, truncated of each.
+        """Step every environment; return s', rewards, terminated and truncated.
 
-        Those that were dead before, whose step only reset them, are to be left out by the caller.
+        The caller leaves out environments that were ``dead`` before: their step only reset them.
         """
         actions = actions.astype(np.int64) + self.start
         if not self.vector:

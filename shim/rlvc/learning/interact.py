@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The interaction with an environment."""
+"""Interacting with an environment, and storing the interactions in the agent."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from .run import Run
 
 
 class Interaction:
-    """The loop of section 4.2.1 around an environment."""
+    """Counts interactions and returns, and says when a learning step is due."""
 
     def __init__(self, stream: Environment, interactions: int, every: int) -> None:
         self.stream = stream
         self.interactions = interactions
         self.every = every
         self.done = 0
-        self.at = 0  # the interaction that is under way, or was last
+        self.at = 0  # the current or last interaction
         self.episodes = 0  # ended so far
         self.sums = np.zeros(stream.count)
-        self.returns: list[float] = []  # of the episodes ended since the last learning step
+        self.returns: list[float] = []  # of episodes that ended since the last learning step
 
     def transition(self, actions: Any) -> tuple[Any, ...]:
-        """Act, and leave out what is dead or too much."""
+        """Step; leave out dead environments and those beyond the number of interactions."""
         stream, self.at = self.stream, self.done
         before = stream.split(stream.current)
         live = np.flatnonzero(~stream.dead)[: self.interactions - self.done]
@@ -52,12 +52,12 @@ class Interaction:
         )
 
     def due(self, before: int) -> bool:
-        """Whether a learning step is due, if there were ``before`` interactions before the last."""
+        """Whether a learning step is due now, but was not after ``before`` interactions."""
         return self.done // self.every > before // self.every or self.done >= self.interactions
 
 
 def packed(encoder: Any, observations: Any, domain: Domain) -> npt.NDArray[Any]:
-    """Encode observations as an array of percepts, as :meth:`rlvc.Agent.observe_many` takes it.
+    """Encode observations as an array of percepts, for :meth:`rlvc.Agent.observe_many`.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def packed(encoder: Any, observations: Any, domain: Domain) -> npt.NDArray[Any]:
 
 
 def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
-    """Give how interactions ended, as :meth:`rlvc.Agent.observe_many` takes it.
+    """Return how interactions ended, for :meth:`rlvc.Agent.observe_many`.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def ends_of(terminated: Any, truncated: Any) -> npt.NDArray[np.uint8]:
 
 
 def _step(run: Run, learner: Interaction) -> None:
-    """An interaction of a single environment."""
+    """Make an interaction with a single environment."""
     choice = run.agent.act()
     _, _, rewards, reached, terminated, truncated = learner.transition(np.array([choice.action]))
     percept = packed(run.encoder, reached, run.agent.domain)[0]
@@ -106,7 +106,7 @@ def _step(run: Run, learner: Interaction) -> None:
 
 
 def _step_all(run: Run, learner: Interaction, batch: Batch) -> None:
-    """An interaction of each environment of a vector."""
+    """Make an interaction with each environment of a vector."""
     stream = learner.stream
     live = np.flatnonzero(~stream.dead)
     everyone = stream.split(stream.current)
@@ -122,7 +122,7 @@ def _step_all(run: Run, learner: Interaction, batch: Batch) -> None:
 
 
 def collect(run: Run, learner: Interaction) -> Iterator[None]:
-    """Interact; yields whenever a learning step is due."""
+    """Interact; yield whenever a learning step is due."""
     batch = run.agent.batch(learner.stream.count) if learner.stream.vector else None
     while learner.done < learner.interactions:
         before = learner.done

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Learning from Gymnasium environments, and what comes out of it."""
+"""Learning from a Gymnasium environment: the loop of section 4.2.1."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     import gymnasium
 
 _CAPACITY_MAX = 1_000_000
-_LEAVES = 12  # of a policy on trial
-_RANDOM_AT_FIRST = 1000  # interactions before the first trial
-_LAST = 0.25  # share of the interactions that choose among the policies tried before
-# With trials, of a class that is tested. What is felt only seldom, as the end of the track, is not seen
-# in fewer, and the classes are used up by what is felt always.
+_LEAVES = 12  # maximum number of leaves of a policy on trial
+_RANDOM_AT_FIRST = 1000  # random interactions before the first trial
+_LAST = 0.25  # share of the interactions, at the end, that only compare the policies tried before
+# With trials: min_samples of the config. With fewer, the tree spends its classes on frequent situations
+# before it sees rare ones, such as the end of a track.
 _MIN_SAMPLES = 64
 
 
@@ -63,7 +63,7 @@ def _note(run: Run, learner: Interaction, splits: int, bar: Any) -> None:
 
 
 def domain_of(encoder: Any) -> Domain:
-    """Give the domain of an encoder's percepts: its own, or that of bits.
+    """Return the domain of an encoder's percepts: its ``domain``, or Bits of its ``bits``.
 
     Parameters
     ----------
@@ -84,13 +84,13 @@ def domain_of(encoder: Any) -> Domain:
 
 
 def default_config(actions: int, interactions: int, seed: int, changes: dict[str, Any]) -> Config:
-    """Give the config of :func:`learn`: that of an agent, with room for all interactions.
+    """Return the default config of :func:`learn`, with the caller's changes.
 
     Parameters
     ----------
     actions, interactions, seed : int
     changes : dict
-        Fields that the caller chose.
+        Fields set by the caller.
 
     Returns
     -------
@@ -111,6 +111,19 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
         raise ConfigError(f"no such field: {error}") from None
 
 
+def _leaves(wanted: int | None, able: bool) -> int:
+    """The leaves of a policy on trial; 0: no trials. `able`: whether trials are possible."""
+    if wanted is None:
+        return _LEAVES if able else 0
+    wanted = whole("leaves", wanted, 0, 2**16)
+    if wanted > 0 and not able:
+        raise ConfigError(
+            "leaves: trials need a single environment, percepts of real numbers, and the residual "
+            "criterion"
+        )
+    return wanted
+
+
 def learn(
     env: gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any],
     interactions: int,
@@ -129,37 +142,38 @@ def learn(
     Parameters
     ----------
     env : gymnasium.Env or gymnasium.vector.VectorEnv
-        Its actions are Discrete. What its observations may be, :mod:`rlvc.encode` says.
+        The actions must be Discrete; :mod:`rlvc.learning.encode` lists the spaces of observations.
     interactions : int
-        How many to have.
+        Number of interactions, at least 1.
     encoder : object or None
-        Turns observations into percepts: it has ``encode(observation) -> bytes`` and ``bits``, or
-        the ``domain`` that the percepts are of, as :class:`rlvc.vision.Eye` has. None: an
-        :class:`~rlvc.encode.Encoder` for the environment's space.
+        Turns observations into percepts: it has ``encode(observation) -> bytes``, and either
+        ``bits`` or the ``domain`` of the percepts, as :class:`rlvc.vision.Eye` has. None: an
+        :class:`rlvc.Encoder` for the environment's space.
     every : int or None
-        Interactions from one learning step to the next. None: a hundredth of all, at least 100.
+        Interactions between two learning steps. None: a hundredth of all, at least 100.
     seed : int or None
-        Of the environment and of all choices: the same seed gives the same tree. None: any.
+        Seed of the environment and of the agent: the same seed gives the same tree. None: a random
+        seed.
     thresholds : int
-        For each element of a Box, at most so many cutpoints are looked at in a class; 0: all there
-        are.
+        Maximum number of cutpoints for each element of a Box in one class; 0: no limit.
     leaves : int or None
-        Learn by trials (:mod:`rlvc.trials`): what acts is a policy of at most so many leaves, made
-        of the agent's values, and the one that earned most is kept. A learning step comes after
-        each trial, and not ``every`` so many interactions; after a random beginning (1000
-        interactions, or a tenth of all) nothing explores but the trials. In the last quarter
-        nothing is learnt; in each episode the best so far acts, so that what was good by luck is
-        found out. 0: no trials. None: 12 where percepts are real numbers and there is one
-        environment, else 0. Trials need both, and are not for the criterion of returns.
+        Learn by trials (:mod:`rlvc.learning.trials`). The policies that act are small trees of at
+        most this many leaves, made from the agent's values; the one with the best mean return is
+        kept. A learning step follows each trial, so ``every`` is not used. The first interactions
+        are random (1000, or a tenth of all), and ``epsilon`` is not used after them. In the last
+        quarter the best policy so far acts and learning stops, to detect policies that were only
+        lucky. 0: no trials. None: 12 if percepts are real numbers and there is a single
+        environment, else 0. Trials need both, and do not support the criterion of returns.
     progress : bool
-        Whether to show a progress bar, with classes, return and refinements.
+        Whether to show a progress bar with classes, mean return and splits.
     callback : callable or None
-        Called with the run after each learning step, and each episode of the last quarter where
-        learning is by trials; if it returns True, learning ends.
+        Called with the run after each learning step, and with trials also after each episode of the
+        last quarter. Learning ends if it returns True.
     **config
-        Fields of :class:`Config`. Unlike its defaults, ``capacity`` holds all interactions (at most
-        a million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with trials,
-        ``min_samples`` 64. Where the world changes, a smaller ``capacity`` forgets sooner what was.
+        Fields of :class:`Config`. Defaults that differ: ``capacity`` holds all interactions (at
+        most a million), ``classes`` is 512, ``discount`` 0.99, ``tolerance`` 0.001 and, with
+        trials, ``min_samples`` 64. If the environment changes over time, use a smaller
+        ``capacity``: the agent forgets old interactions sooner.
 
     Returns
     -------
@@ -173,13 +187,13 @@ def learn(
         A field of the config, ``interactions``, ``every`` or ``leaves`` is out of range.
 
     EnvError, RewardError, PerceptError
-        The environment returned something else than Gymnasium's interface says; the message names
-        the interaction, the episode, and what it was.
+        The environment returned a value that Gymnasium's interface does not allow. The message names the
+        interaction, the episode and the value.
 
     Notes
     -----
-    Ctrl-C ends learning; the run so far is returned, and is ``interrupted``. An exception, also one of
-    the environment, the encoder or the callback, has the run so far as its attribute ``run``.
+    Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True. Any exception, also of
+    the environment, the encoder or the callback, has the run so far in its attribute ``run``.
     """
     interactions = whole("interactions", interactions, 1, 2**53)
     every = max(100, interactions // 100) if every is None else whole("every", every, 1, 2**53)
@@ -190,23 +204,13 @@ def learn(
         raise ConfigError(f"callback: {callback!r:.80} is not a function")
     stream = Environment(env, seed)
     if stream.vector and config.get("criterion") == "returns":
-        raise ConfigError(
-            "criterion: returns need episodes in one piece, and so a single environment"
-        )
+        raise ConfigError("criterion: returns needs a single environment, not a vector")
     learner = Interaction(stream, interactions, every)
     if encoder is None:
         encoder = Encoder(stream.observation_space, thresholds)
     domain = domain_of(encoder)
     able = isinstance(domain, Thresholds) and not stream.vector
-    able = able and config.get("criterion") != "returns"
-    if leaves is None:
-        leaves = _LEAVES if able else 0
-    leaves = whole("leaves", leaves, 0, 2**16)
-    if leaves > 0 and not able:
-        raise ConfigError(
-            "leaves: trials need one environment, percepts that are real numbers, and not the criterion "
-            "of returns"
-        )
+    leaves = _leaves(leaves, able and config.get("criterion") != "returns")
     if leaves > 0:
         config = {"min_samples": _MIN_SAMPLES} | config
     settings = default_config(stream.actions, interactions, seed % 2**32, config)
@@ -255,7 +259,7 @@ def _learn(
 
 
 def _shrunk(agent: Agent, percepts: npt.NDArray[Any], leaves: int) -> SmallPolicy:
-    """A small policy by the agent's values; what was not tried in a class is worth the least there."""
+    """A small policy from the agent's values; untried actions count as the worst of their class."""
     tried = agent.samples > 0
     least = np.min(agent.q, axis=1, where=tried, initial=np.inf, keepdims=True)
     values = np.where(tried, agent.q, np.where(np.isinf(least), 0.0, least))
@@ -269,7 +273,7 @@ def _learn_by_trials(
     bar: Any,
     callback: Callable[[Run], object] | None,
 ) -> None:
-    """Let small policies act, and learn after each trial of one; then choose among them."""
+    """Let small policies act and learn after each trial; at the end compare the best ones."""
     stream, agent, trials = learner.stream, run.agent, Trials()
     random = np.random.default_rng([run.seed, 2])
     percepts = np.empty((learner.interactions, *agent.domain.percept_shape), np.float32)

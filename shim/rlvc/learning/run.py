@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The result of learning."""
+"""The result of learning: :class:`Run`."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ class Record:
     Attributes
     ----------
     step : int
-        k of the step.
+        Its number k.
     interactions : int
-        So far.
+        Number so far.
     classes : int
-        After it.
+        Number after the step.
     splits : int
-        Made in it.
+        Number made in the step.
     episodes : int
-        Ended since the step before.
+        Number that ended since the previous step.
     mean_return : float
-        Their mean undiscounted return, exploration included; NaN if there are none.
+        Their mean undiscounted return, with exploration; NaN if there are none.
     """
 
     step: int
@@ -48,21 +48,21 @@ class Record:
 
 
 class Run:
-    """What :func:`learn` or :func:`learn_from` made.
+    """The result of :func:`rlvc.learn` or :func:`rlvc.learn_from`.
 
     Attributes
     ----------
     agent : Agent
     encoder : Encoder or None
-        None if percepts are the agent's own.
+        None if there are no observations, only percepts.
     history : list of Record
-        One a learning step; where trials are over and a policy is chosen, one an episode.
+        One record for each learning step; with trials also one for each episode of the last
+        quarter.
     seed : int
     interrupted : bool
-        Whether Ctrl-C ended it early.
+        Whether Ctrl-C ended learning.
     small : SmallPolicy or None
-        Where learning was by trials, the policy of few leaves that did best: it is what acts, while
-        the agent's tree is what it was made from.
+        With trials: the best small policy. It acts in place of the agent's tree.
     """
 
     def __init__(self, agent: Agent, encoder: Encoder | None, seed: int, start: int = 0) -> None:
@@ -75,18 +75,18 @@ class Run:
         self._start = start
 
     def act(self, observation: Any, policy: Policy | None = None) -> int:
-        """Give the learnt policy's action.
+        """Return the action of the learnt policy.
 
         Parameters
         ----------
         observation : element of the environment's space
         policy : Policy or None
-            What ``run.agent.compact()`` made, to be asked instead.
+            A result of ``run.agent.compact()`` to use instead.
 
         Returns
         -------
         int
-            In the environment's space: ``Discrete.start`` is added.
+            An element of the action space: ``Discrete.start`` is added.
         """
         percept = self.encoder.encode(observation) if self.encoder else observation
         if policy is not None:
@@ -104,16 +104,16 @@ class Run:
         seed: int = 0,
         policy: Policy | None = None,
     ) -> float:
-        """Play with the learnt policy.
+        """Play episodes with the learnt policy.
 
         Parameters
         ----------
         env : gymnasium.Env
         episodes : int
         seed : int
-            Of the first reset.
+            Seed of the first reset.
         policy : Policy or None
-            What ``run.agent.compact()`` made, to be played with instead.
+            A result of ``run.agent.compact()`` to use instead.
 
         Returns
         -------
@@ -142,7 +142,7 @@ class Run:
         return total / episodes
 
     def text(self) -> str:
-        """Print the tree, its tests in words of the environment's space.
+        """Return the tree as text, with tests in words of the environment's space.
 
         Returns
         -------
@@ -152,5 +152,5 @@ class Run:
         return self.encoder.explain(text) if self.encoder else text
 
     def __repr__(self) -> str:
-        """Say what it is."""
+        """Describe the run."""
         return f"<rlvc.Run: {self.agent!r}>"

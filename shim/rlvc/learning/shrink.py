@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A small policy from the values of an agent."""
+"""Makes a small policy from the values of an agent."""
 
 from __future__ import annotations
 
@@ -12,14 +12,16 @@ from ..checks import whole
 from ..errors import ArrayError, RangeError
 from .small_policy import Reals, SmallPolicy
 
-_CUTPOINTS = 32  # of a component, at quantiles of all percepts
-_LEAST = 1e-6  # gain of a test that is worth a leaf, as a share of what is at stake
+_CUTPOINTS = 32  # cutpoints of a component, at quantiles of all percepts
+_LEAST = 1e-6  # smallest gain of a split, as a share of the total weight
 
 
 class _Growth:
-    """A small policy that grows: which rows each leaf has, and its best split."""
+    """A growing policy: the rows of each leaf, and the best split of each leaf."""
 
     def __init__(self, rows: Reals, values: Reals) -> None:
+        # The weight of a percept: the square root of its advantage of the best action. The advantage
+        # itself would spend all leaves on the moments before a failure, none on avoiding them.
         order = np.sort(values, axis=1)
         stake = order[:, -1] - order[:, -2] if values.shape[1] > 1 else order[:, -1] * 0
         stake = np.sqrt(stake)
@@ -44,7 +46,7 @@ class _Growth:
         self.policy._action[node] = int(self.weight[rows].sum(axis=0).argmax())
 
     def search(self, rows: npt.NDArray[Any]) -> tuple[float, int, int]:
-        """The gain of the best split of some rows, its component, and its cutpoint's number."""
+        """Return the gain of the best split of some rows, its component and its cutpoint's index."""
         found = (self.least, -1, 0)
         weight = self.weight[rows]
         for i, cut in enumerate(self.cutpoints):
@@ -58,7 +60,7 @@ class _Growth:
         return found
 
     def grow(self) -> bool:
-        """Split the leaf where that gains most; whether there was one."""
+        """Split the leaf with the largest gain; return whether there was one."""
         node = max(self.best, key=lambda leaf: self.best[leaf][0])
         _, test, number = self.best.pop(node)
         if test < 0:
@@ -72,27 +74,25 @@ class _Growth:
 
 
 def _impurity(weight: Reals) -> Any:
-    """Gini's, times what is weighed: 0 where there is but one action."""
+    """Gini impurity times the total weight: 0 if all weight is on one action."""
     whole = weight.sum(axis=-1)
     return whole - (weight**2).sum(axis=-1) / np.maximum(whole, 1e-30)
 
 
 def shrink(percepts: Reals, values: Reals, leaves: int) -> SmallPolicy:
-    """Make a small policy that loses as little as can be of what is at stake, by a greedy search.
+    """Make a small policy from percepts and the values of the actions there, by a greedy search.
 
-    Each percept wants the action of the greatest value, by the square root of how much that is
-    above the second: by as much itself, what goes before a fall would take all leaves, and none be
-    left for what keeps one far from falling. The leaf is split, and the cutpoint taken, by which
-    the impurity of these wishes falls most.
+    Each percept votes for its best action. The weight of the vote is the square root of the
+    advantage of the best action over the second best. Each step makes the split that reduces the
+    weighted Gini impurity of the votes most.
 
     Parameters
     ----------
     percepts : ndarray of float32, [n, components]
-        That were met.
     values : ndarray, [n, actions]
-        Q of each action at each of them.
+        Q of each action at each percept.
     leaves : int
-        At most.
+        Maximum number of leaves.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A policy that is a small tree of thresholds."""
+"""Policies that are small trees of tests x[i] > c."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Reals = npt.NDArray[Any]
 
 
 class SmallPolicy:
-    """A policy that is a tree of few leaves, with tests x[i] > c.
+    """A policy that is a small tree of tests x[i] > c.
 
     Attributes
     ----------
@@ -22,19 +22,19 @@ class SmallPolicy:
     """
 
     def __init__(self) -> None:
-        self._test: list[int] = [-1]  # of a node: the component, or -1 at a leaf
+        self._test: list[int] = [-1]  # component that a node tests, or -1 at a leaf
         self._cutpoint: list[float] = [0.0]
-        # The node below, if not above the cutpoint; the next one if above.
+        # Child of a node if x[i] <= c; the next node is the child if x[i] > c.
         self._absent: list[int] = [0]
         self._action: list[int] = [0]
 
     @property
     def leaves(self) -> int:
-        """How many leaves there are."""
+        """Number of leaves."""
         return self._test.count(-1)
 
     def act(self, percepts: Reals) -> Any:
-        """Give actions.
+        """Return the action at a percept, or at each percept of an array.
 
         Parameters
         ----------
@@ -61,7 +61,7 @@ class SmallPolicy:
         return np.array(self._action)[node]
 
     def text(self) -> str:
-        """Print the tree, as :meth:`rlvc.Agent.print` does the agent's."""
+        """Return the tree as text."""
         return "".join(self._lines(0, "", ""))
 
     def _lines(self, node: int, indent: str, answer: str) -> list[str]:
@@ -75,12 +75,12 @@ class SmallPolicy:
         ]
 
     def export_c(self, name: str = "policy") -> str:
-        """Give the policy as a C99 header.
+        """Return the policy as a C99 header.
 
         Parameters
         ----------
         name : str
-            A C identifier; ``NAME_act(x)`` is the function to call, x an array of float.
+            A C identifier. The header defines ``NAME_act(x)``, with x an array of float.
 
         Returns
         -------
@@ -89,12 +89,12 @@ class SmallPolicy:
         Raises
         ------
         RangeError
-            ``name`` is no identifier.
+            ``name`` is not an identifier.
         """
         if not (name.isidentifier() and name.isascii()):
-            raise RangeError(f"name: {name!r} is no identifier of C")
+            raise RangeError(f"name: {name!r} is not a C identifier")
         return (
-            f"/* A policy learnt by rlvc, of {self.leaves} leaves. */\n"
+            f"/* A policy learnt by rlvc: {self.leaves} leaves. */\n"
             f"#ifndef {name}_policy_h\n#define {name}_policy_h\n\n"
             f"static inline unsigned {name}_act(const float *x) {{\n    (void)x;\n"
             f"    return {self._expression(0)};\n}}\n\n#endif\n"
@@ -117,7 +117,7 @@ class SmallPolicy:
         return below, below + 1
 
     def _merge(self) -> SmallPolicy:
-        """The same policy without tests whose answers lead to the same action."""
+        """Return the same policy without tests whose leaves all have the same action."""
         made = SmallPolicy()
 
         def alike(node: int) -> bool:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Small policies on real numbers, and trials that find a good one.
+"""Trials of small policies, for percepts of real numbers.
 
-Of real numbers a tree never knows enough: each new class makes values a little truer, and the
-policy of a class-level model that is nearly right may be a bad one. So a small tree is made of the
-agent's values (:func:`shrink`), it is this tree that acts, and what it earns decides
-(:class:`Trials`). Of many that are tried for a few episodes the best may be one that was lucky; so
-it is tried again in the end.
+With continuous inputs the tree never refines fully: each new class makes the values a little more
+accurate, and a nearly accurate model can still have a bad policy. So a small tree is made from the
+agent's values (:func:`rlvc.learning.shrink`); it acts, and its returns decide whether it is kept
+(:class:`Trials`). The best of many policies with few episodes each may only have been lucky, so at
+the end the best one is tried again.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ import numpy as np
 
 from .small_policy import SmallPolicy
 
-_EPISODES = 5  # of a trial, at most
-_DOUBT = 0.3  # episodes that earn nothing, added to those of a policy when it is compared
+_EPISODES = 5  # maximum number of episodes of a trial
+_DOUBT = 0.3  # number of episodes of return 0 that are added to those of a policy in comparisons
 
 
 class Trials:
-    """Which policy acts, and which has done best.
+    """The policy on trial, and the best policy so far.
 
-    A policy is tried for a few episodes, and no longer than its mean return is at least that of the
-    best so far. Then the next is made. The best is the one with the greatest mean return, of which
-    a little is taken off for doubt, the less the more episodes it was tried for.
+    A trial ends after a few episodes, or as soon as the policy's mean return is below that of the
+    best. The best policy has the highest mean return, minus a penalty that shrinks with its number
+    of episodes.
     """
 
     def __init__(self) -> None:
@@ -32,16 +32,16 @@ class Trials:
 
     @property
     def policy(self) -> SmallPolicy | None:
-        """The one on trial."""
+        """The policy on trial, or None."""
         return self._now[0] if self._now else None
 
     @property
     def best(self) -> SmallPolicy | None:
-        """The one that has done best of those that had an episode."""
+        """The best policy that had an episode, or None."""
         return self._best()[0] if self._tried else None
 
     def _best(self) -> tuple[SmallPolicy, list[float]]:
-        """With its returns; of equals the last."""
+        """The best policy and its returns; the latest if several are equal."""
         return max(reversed(self._tried), key=lambda tried: _score(tried[1]))
 
     def start(self, policy: SmallPolicy) -> None:
@@ -49,7 +49,7 @@ class Trials:
         self._now = (policy, [])
 
     def end_episode(self, gained: float) -> bool:
-        """Note the return of an episode; whether the trial is over."""
+        """Record the return of an episode; return whether the trial is over."""
         assert self._now is not None
         returns = self._now[1]
         if not returns:
@@ -58,11 +58,11 @@ class Trials:
         return len(returns) >= _EPISODES or np.mean(returns) < np.mean(self._best()[1])
 
     def resume(self) -> None:
-        """Put the best on trial again; what it earned before counts on."""
+        """Put the best policy on trial again; its earlier returns still count."""
         self._now = self._best()
 
 
 def _score(returns: list[float]) -> float:
-    """The mean, less doubt."""
+    """The mean return minus the penalty for few episodes."""
     mean = float(np.mean(returns))
     return mean - abs(mean) * _DOUBT / (len(returns) + _DOUBT)

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Learning from logs: arrays, NPZ, CSV, Minari data sets, and the logs that a controller writes.
 
-A log is a list of episodes of T interactions. In arrays, the observations of all episodes follow
-one another, T + 1 of each: the last one is what the last interaction led to. Everything else has T
-elements an episode. An episode's end is where ``terminated`` or ``truncated`` is true; a log that
-stops in the middle of an episode is taken as truncated there.
+A log is a sequence of episodes of T interactions. In arrays, each episode has T + 1 observations:
+the last one is the observation after the last interaction. All other arrays have T elements for
+each episode. An episode ends where ``terminated`` or ``truncated`` is true; a log that stops in the
+middle of an episode counts as truncated there.
 
-What a controller wrote holds percepts as they are, and is known by how it begins. What was cut
-short when the power went is passed over; other damage is an error.
+The log of a controller (``core/include/rlvc/log.h``) holds percepts, not observations. A record
+that a power failure cut short is skipped; other damage is an error.
+
+All readers return a :class:`Log`. They raise :class:`~rlvc.errors.LogError` if the log cannot be
+read or is damaged; the message names the file, the line or index, and the fault.
 """
 
 from .array_log import from_arrays, from_npz

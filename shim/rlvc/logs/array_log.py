@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Logs that are arrays, in memory or in an NPZ file."""
+"""Logs of arrays, in memory or in an NPZ file."""
 
 from __future__ import annotations
 
@@ -37,44 +37,35 @@ def _column(
     if values.shape != (count,):
         raise LogError(f"{where}: {name}: {list(values.shape)}, not [{count}]")
     if values.dtype.kind not in kind:
-        raise LogError(f"{where}: {name}: {values.dtype}, which is not of the kind that is wanted")
+        raise LogError(f"{where}: {name}: {values.dtype}: wrong kind of numbers")
     return values
 
 
 def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
-    """Make a log of arrays.
+    """Make a log from arrays.
 
     Parameters
     ----------
     arrays : dict
-        ``observations`` [sum(T + 1), ...], ``actions`` [sum(T)], ``rewards``, ``terminated``, and
-        if they are known ``truncated`` and ``exploited``. Or ``next_observations`` beside
-        observations [sum(T), ...].
+        ``observations`` [sum(T + 1), ...]; ``actions``, ``rewards`` and ``terminated`` [sum(T)];
+        optional ``truncated`` and ``exploited`` [sum(T)]. With ``next_observations`` [sum(T), ...],
+        the observations are [sum(T), ...] as well.
     where : str
-        What to call it in errors.
-
-    Returns
-    -------
-    Log
-
-    Raises
-    ------
-    LogError
-        A part is missing, or of the wrong shape or kind; the text says where.
+        Name of the log in errors.
     """
     for name in _FIELDS:
         if name not in arrays:
             raise LogError(
-                f"{where}: {name}: missing (there are: {', '.join(sorted(map(str, arrays))) or 'none'})"
+                f"{where}: {name}: missing (present: {', '.join(sorted(map(str, arrays))) or 'none'})"
             )
     known = {*_FIELDS, *_OPTIONAL, "next_observations"}
     unknown = sorted(map(str, set(arrays) - known))
     if unknown:
-        raise LogError(f"{where}: {unknown[0]}: not known; a log has {', '.join(sorted(known))}")
+        raise LogError(f"{where}: {unknown[0]}: not known; allowed are {', '.join(sorted(known))}")
     arrays = {name: _array(arrays[name], name, where) for name in arrays}
     count = np.size(arrays["actions"])
     if count == 0:
-        raise LogError(f"{where}: actions: no interaction in it")
+        raise LogError(f"{where}: actions: there is no interaction")
     actions = _column(arrays, "actions", count, where, "iu").astype(np.int64)
     rewards = _column(arrays, "rewards", count, where, "fiu").astype(np.float32)
     terminated = _column(arrays, "terminated", count, where, "biu").astype(np.bool_)
@@ -90,7 +81,7 @@ def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
         before, after = observations, np.asarray(arrays["next_observations"])
         for name, values in (("observations", before), ("next_observations", after)):
             if len(values) != count:
-                raise LogError(f"{where}: {name}: {len(values)} of them for {count} actions")
+                raise LogError(f"{where}: {name}: {len(values)} for {count} actions")
     else:
         before, after = _split_episodes(observations, ends, where)
     return checked(Log(before, after, actions, rewards, ends, exploited, where))
@@ -99,7 +90,7 @@ def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
 def _split_episodes(
     observations: npt.NDArray[Any], ends: npt.NDArray[np.uint8], where: str
 ) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    """S and s' of each interaction, where each episode has an observation more than actions."""
+    """Return s and s' of each interaction, if each episode has T + 1 observations."""
     if ends[-1] == 0:
         ends[-1] = 2
     starts = np.concatenate(([0], ends[:-1] != 0))
@@ -107,27 +98,18 @@ def _split_episodes(
     wanted = int(index[-1]) + 2
     if len(observations) != wanted:
         raise LogError(
-            f"{where}: observations: {len(observations)} of them; {len(ends)} actions in "
+            f"{where}: observations: {len(observations)}; {len(ends)} actions in "
             f"{int(starts.sum()) + 1} episodes need {wanted}"
         )
     return observations[index], observations[index + 1]
 
 
 def from_npz(path: str | Path) -> Log:
-    """Read a log from an NPZ file with the arrays that :func:`from_arrays` describes.
+    """Read a log from an NPZ file with the arrays of :func:`from_arrays`.
 
     Parameters
     ----------
     path : str or Path
-
-    Returns
-    -------
-    Log
-
-    Raises
-    ------
-    LogError
-        It cannot be read, or is damaged.
     """
     try:
         with open_file(path) as file, np.load(file, allow_pickle=False) as archive:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Logs that a controller wrote while it acted (``core/include/rlvc/log.h``), by the library's reader."""
+"""Logs that a controller wrote (``core/include/rlvc/log.h``), read by the library."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ..errors import LogError
 from ..files import open_file, read
 from .log import Log
 
-_MAGIC = b"\xa5\x01"  # the mark of a record, and that it is a header
+_MAGIC = b"\xa5\x01"  # start of a record, and its kind: header
 
 
 def is_records(path: str | Path) -> bool:
-    """Whether a file begins as such a log does.
+    """Whether a file begins like the log of a controller.
 
     Parameters
     ----------
@@ -47,20 +47,19 @@ def _read(content: bytes, records: _native.ShimRecords, path: str | Path) -> Non
 
 
 _WRONG = {
-    _native.E_DAMAGED: "bytes or records are missing, or damaged, and others follow",
-    _native.E_VERSION: "a header of another version",
-    _native.E_MISMATCH: "a header of other percepts or actions than the first",
+    _native.E_DAMAGED: "bytes or records are missing or damaged before the end of the log",
+    _native.E_VERSION: "a header has another version",
+    _native.E_MISMATCH: "a header has other percepts or actions than the first one",
 }
 
 
 def from_records(path: str | Path) -> Log:
-    """Read a log that ``rlvc_log_open``, ``rlvc_log_begin`` and ``rlvc_log_observe`` wrote.
+    """Read the log of a controller: the output of ``rlvc_log_open`` and the calls after it.
 
     Parameters
     ----------
     path : str or Path
-        Where the power was lost in the middle of a record, that is passed over, and the rest is
-        used: the episode is truncated there.
+        A record that a power failure cut short is skipped: the episode is truncated there.
 
     Returns
     -------
@@ -80,7 +79,7 @@ def from_records(path: str | Path) -> Log:
     _read(content, records, path)
     count, size = records.interactions, records.percept_bytes
     if count == 0:
-        raise LogError(f"{path}: no interaction in it")
+        raise LogError(f"{path}: there is no interaction")
     shapes: dict[str, tuple[Any, Any]] = {
         "percepts": ((count, size), np.uint8),
         "next": ((count, size), np.uint8),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Logs that are CSV files."""
+"""Logs in CSV files."""
 
 from __future__ import annotations
 
@@ -24,22 +24,12 @@ def from_csv(path: str | Path, columns: Sequence[str] | None = None) -> Log:
     Parameters
     ----------
     path : str or Path
-        With the columns ``action``, ``reward``, ``terminated``, perhaps ``truncated``,
-        ``exploited`` and ``episode``, and others, which are the observation: what was seen before
-        the action. What an interaction led to is the observation of the next line. A line without
-        an action only says what was seen at the end of an episode. An interaction that is not
-        terminated and of which the file does not say what it led to is left out.
+        Columns: ``action``, ``reward``, ``terminated``; optional ``truncated``, ``exploited`` and
+        ``episode``; all others are the observation before the action. The next line has the
+        observation after it. A line without an action holds the last observation of an episode. An
+        interaction that did not terminate and has no observation after it is left out.
     columns : sequence of str or None
-        Those of the observation. None: all that have no other meaning, in the order of the file.
-
-    Returns
-    -------
-    Log
-
-    Raises
-    ------
-    LogError
-        It cannot be read, or a line is damaged; the text says which, and what is wrong.
+        Columns of the observation. None: all others, in the order of the file.
     """
     try:
         with io.TextIOWrapper(open_file(path), encoding="utf-8", newline="") as file:
@@ -52,13 +42,13 @@ def from_csv(path: str | Path, columns: Sequence[str] | None = None) -> Log:
     for name in (*special[:3], *(columns or ())):
         if name not in head:
             raise LogError(
-                f"{path}: line 1: no column {name} (there are: {', '.join(head) or 'none'})"
+                f"{path}: line 1: no column {name} (present: {', '.join(head) or 'none'})"
             )
     if len(set(head)) != len(head):
-        raise LogError(f"{path}: line 1: a column is named twice")
+        raise LogError(f"{path}: line 1: two columns have the same name")
     seen = list(columns) if columns else [name for name in head if name not in special]
     if not seen:
-        raise LogError(f"{path}: line 1: no column of the observation")
+        raise LogError(f"{path}: line 1: no column for the observation")
     table = {name: np.empty(len(rows)) for name in head}
     for i, (line, row) in enumerate(rows):
         if len(row) != len(head):
@@ -78,7 +68,7 @@ def _number(text: str, name: str, where: str) -> float:
     try:
         return float(word)
     except ValueError:
-        raise LogError(f"{where}: {name}: {text!r:.40} is no number") from None
+        raise LogError(f"{where}: {name}: {text!r:.40} is not a number") from None
 
 
 def _flags(table: dict[str, npt.NDArray[Any]], name: str, lines: list[int], where: str) -> Any:
@@ -96,11 +86,11 @@ def _need(
     lines: list[int],
     where: str,
 ) -> None:
-    """Refuse a table whose column has no number of that kind where one is wanted."""
+    """Raise LogError unless the column has a number of that kind in each wanted row."""
     values = table[name]
     good = np.isfinite(values) & ((values % 1 == 0) if kind == "whole" else True)
     for i in np.flatnonzero(wanted & ~good):
-        raise LogError(f"{where}: line {lines[i]}: {name}: {values[i]} is no {kind} number")
+        raise LogError(f"{where}: line {lines[i]}: {name}: {values[i]} is not a {kind} number")
 
 
 def _from_table(
@@ -117,7 +107,7 @@ def _from_table(
     for i in np.flatnonzero(terminated & ~acted):
         raise LogError(f"{where}: line {lines[i]}: terminated without an action")
     episode = table.get("episode", np.zeros(count))
-    # What an interaction led to stands in the next line, if that is of the same episode.
+    # s' is in the next line, if that belongs to the same episode.
     same = np.append(episode[1:] == episode[:-1], False)
     last_seen = np.append(~acted[1:], False) & same
     kept = acted & (terminated | last_seen | (same & ~truncated))
@@ -125,10 +115,10 @@ def _from_table(
     _need(kept, table, "reward", "finite", lines, where)
     rows = np.flatnonzero(kept)
     if len(rows) == 0:
-        raise LogError(f"{where}: no interaction in it")
+        raise LogError(f"{where}: there is no interaction")
     ends = ends_of(terminated, truncated | last_seen)
     observations = np.stack([table[name] for name in seen], axis=1)
-    following = np.minimum(rows + 1, count - 1)  # not looked at where terminated
+    following = np.minimum(rows + 1, count - 1)  # ignored where terminated
     return checked(
         Log(
             observations[rows],

@@ -34,18 +34,9 @@ def read(log: Any, columns: Sequence[str] | None = None) -> Log:
     Parameters
     ----------
     log : dict of arrays, path of a file, Minari data set or its name, or Log
-        A file is an NPZ, a CSV, or a log that a controller wrote, which is known by how it begins.
+        A file is an NPZ, a CSV or the log of a controller.
     columns : sequence of str or None
-        Of a CSV's observation.
-
-    Returns
-    -------
-    Log
-
-    Raises
-    ------
-    LogError
-        It is damaged; the text says where.
+        Columns of a CSV that form the observation.
     """
     if isinstance(log, Log):
         return log
@@ -60,7 +51,7 @@ def read(log: Any, columns: Sequence[str] | None = None) -> Log:
         if suffix == ".csv":
             return from_csv(log, columns)
         if isinstance(log, Path) or Path(log).exists():
-            raise LogError(f"{log}: neither .npz nor .csv, nor a controller's log")
+            raise LogError(f"{log}: neither .npz nor .csv, nor the log of a controller")
     if isinstance(log, str) or hasattr(log, "iterate_episodes"):
         return from_minari(log)
     raise LogError(
@@ -72,30 +63,30 @@ def read(log: Any, columns: Sequence[str] | None = None) -> Log:
 def _space_of(log: Log) -> Numbers:
     values = np.asarray(log.before)
     if values.dtype.kind not in "fiu":
-        raise LogError(f"{log.where}: observations: {values.dtype}: give the space they are of")
+        raise LogError(f"{log.where}: observations: {values.dtype}: pass their space")
     return Numbers(values.shape[1:])
 
 
 def _in_words(name: str, columns: list[str]) -> str:
-    """Call ``x[i]``, or ``x`` if there is but one, by its column's name."""
+    """Replace ``x[i]``, or ``x`` if there is only one, by the name of its column."""
     return re.sub(r"^x(?:\[(\d+)\])?", lambda match: columns[int(match[1] or 0)], name)
 
 
 def _domain_of_records(log: Log, domain: Domain | int | None) -> Domain:
-    """The domain of percepts that the log has as they are."""
+    """Return the domain of a log of percepts."""
     if domain is None:
         domain = 8 * log.record_bytes
         if domain > _native.BITS_MAX:
             raise ConfigError(
                 f"domain: {log.where} has percepts of {log.record_bytes} bytes, too many to be bits: "
-                "give the domain they are of"
+                "pass their domain"
             )
     if isinstance(domain, int):
         domain = Bits(domain)
     if domain.percept_bytes != log.record_bytes:
         raise ConfigError(
-            f"domain: its percepts are of {domain.percept_bytes} bytes, and those of {log.where} "
-            f"of {log.record_bytes}"
+            f"domain: its percepts have {domain.percept_bytes} bytes, and those of {log.where} "
+            f"have {log.record_bytes}"
         )
     return domain
 
@@ -103,7 +94,7 @@ def _domain_of_records(log: Log, domain: Domain | int | None) -> Domain:
 def _encoded(
     log: Log, encoder: Encoder | None, space: Any, thresholds: int
 ) -> tuple[Domain, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
-    """The domain of the percepts, the encoder, and the percepts before and after."""
+    """Return the domain, the encoder, and the percepts before and after each interaction."""
     values = None if isinstance(log.before, list) else np.asarray(log.before)
     if encoder is None and space is None and values is not None and values.dtype == np.bool_:
         if values.ndim != 2:
@@ -148,27 +139,25 @@ def learn_from(
     Parameters
     ----------
     log : dict of arrays, path of a file, Minari data set or its name
-        :mod:`rlvc.logs` says what is in each. A file is an NPZ, a CSV, or what ``rlvc_log_observe``
-        wrote on a controller.
+        The formats are in :mod:`rlvc.logs`. A file is an NPZ, a CSV or the log of a controller.
     columns : sequence of str or None
-        Of a CSV's observation.
+        Columns of a CSV that form the observation.
     actions : int or None
-        How many there are. None: what the log says, or one more than the highest in it.
+        Number of actions. None: as the log says, or the highest action plus one.
     space : gymnasium.Space or None
-        Of the observations. None: bits if they are bool, else numbers, which get thresholds.
+        Space of the observations. None: bits if they are bool, else real numbers.
     encoder : object or None
         As for :func:`rlvc.learn`.
     domain : Domain, int or None
-        Of the percepts in a controller's log; a number means :class:`~rlvc.Bits` of so many bits.
-        None: all their bits.
+        Domain of the percepts in the log of a controller; an int is the number of bits. None: all
+        bits of the percepts.
     thresholds : int
-        For each number of an observation, at most.
+        Maximum number of cutpoints for each element of an observation; 0: no limit.
     steps : int
-        Learning steps. Under the residual criterion one finds all; under that of returns, step k
-        looks k interactions ahead, each at the whole log.
+        Number of learning steps. The residual criterion needs one. With the criterion of returns,
+        step k looks k interactions ahead, and each step uses the whole log.
     **config
-        Fields of :class:`~rlvc.Config`. The criterion is ``residual`` unless one is given;
-        that of returns needs a log that says what was exploited.
+        Fields of :class:`~rlvc.Config`. The criterion ``"returns"`` needs a log with ``exploited``.
 
     Returns
     -------
@@ -177,19 +166,19 @@ def learn_from(
     Raises
     ------
     LogError
-        The log is damaged; the text says in which file, where, and what is wrong.
+        The log is damaged. The message names the file, the place and the fault.
     ConfigError
-        A field is out of range, or the criterion needs what the log has not.
+        A field is out of range, or the log lacks what the criterion needs.
 
     Notes
     -----
-    Ctrl-C ends learning; what was learnt by then is returned, and is ``interrupted``.
+    Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True.
     """
     if isinstance(columns, str):
         columns = [columns]
     read_log = read(log, columns)
     if config.get("criterion") == "returns" and read_log.exploited is None:
-        raise ConfigError("criterion: returns need a log that says what was exploited")
+        raise ConfigError("criterion: returns needs a log with exploited")
     steps = whole("steps", steps, 1, 2**31)
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     highest = int(read_log.actions.max())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every kind of log is read into."""
+"""The common form of all logs."""
 
 from __future__ import annotations
 
@@ -15,27 +15,28 @@ from ..errors import LogError
 
 @dataclasses.dataclass
 class Log:
-    """Interactions, one after another.
+    """A sequence of interactions.
 
     Attributes
     ----------
     before, after : ndarray, [n, ...], or list of observations
         s and s'.
     actions : ndarray of int, [n]
-        From 0 on.
+        In [0, 254].
     rewards : ndarray of float32, [n]
     ends : ndarray of uint8, [n]
-        0: goes on; 1: terminated; 2: truncated.
+        0: the episode goes on; 1: terminated; 2: truncated.
     exploited : ndarray of bool, [n], or None
-        Whether the action was the greedy one of the policy that acted; None if not known.
+        Whether the action was greedy; None: unknown.
     where : str
-        The file or the data set, for what is said about damage.
+        The file or data set, for error messages.
     columns : list of str
-        What the numbers of an observation are called, as far as that is known.
+        Names of the elements of an observation, if known.
     record_bytes : int
-        If before and after are percepts' records, [n, record_bytes]; 0: they are observations.
+        Size of a percept, if before and after are percepts [n, record_bytes]; 0: they are
+        observations.
     action_count : int
-        How many actions there are, if the log says so; 0: it does not.
+        Number of actions; 0: unknown.
     """
 
     before: Any
@@ -50,16 +51,16 @@ class Log:
     action_count: int = 0
 
     def __len__(self) -> int:
-        """Give the number of interactions."""
+        """Return the number of interactions."""
         return len(self.actions)
 
 
 def checked(log: Log) -> Log:
-    """Refuse a log with a reward that is not finite, or an action out of range."""
+    """Return the log, or raise LogError if a reward is not finite or an action out of range."""
     bad = np.flatnonzero(~np.isfinite(log.rewards))
     if len(bad):
         raise LogError(
-            f"{log.where}: rewards: index {bad[0]}: {log.rewards[bad[0]]} is no finite number"
+            f"{log.where}: rewards: index {bad[0]}: {log.rewards[bad[0]]} is not a finite number"
         )
     bad = np.flatnonzero(np.abs(log.rewards) > _native.REWARD_MAX)
     if len(bad):

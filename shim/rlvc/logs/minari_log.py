@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Logs that are Minari data sets."""
+"""Logs in Minari data sets."""
 
 from __future__ import annotations
 
@@ -13,32 +13,15 @@ from .log import Log, checked
 
 
 def from_minari(dataset: Any) -> Log:
-    """Make a log of a Minari data set.
+    """Read a log from a Minari data set.
 
     Parameters
     ----------
     dataset : minari.MinariDataset or str
-        A name is loaded from where Minari keeps its data sets. If the episodes' infos have an
-        ``exploited``, it is used.
-
-    Returns
-    -------
-    Log
-
-    Raises
-    ------
-    LogError
-        It cannot be read, or an episode is damaged; the text says which.
+        A str is the name of a local data set. ``exploited`` is read from the infos, if it is there.
     """
     if isinstance(dataset, str):
-        try:
-            import minari
-        except ImportError:
-            raise ImportError("Minari data sets need Minari: pip install 'rlvc[logs]'") from None
-        try:
-            dataset = minari.load_dataset(dataset)
-        except (OSError, ValueError, KeyError) as error:
-            raise LogError(f"{dataset}: cannot be loaded: {error}") from error
+        dataset = _loaded(dataset)
     name = str(dataset.spec.dataset_id)
     parts: dict[str, list[Any]] = {key: [] for key in ("before", "after", "a", "r", "e", "x")}
     for episode in dataset.iterate_episodes():
@@ -64,12 +47,10 @@ def from_minari(dataset: Any) -> Log:
         if "exploited" in infos:
             parts["x"].append(np.asarray(infos["exploited"], np.bool_)[-count:])
     if not parts["a"]:
-        raise LogError(f"{name}: no interaction in it")
+        raise LogError(f"{name}: there is no interaction")
     actions = np.concatenate(parts["a"])
     if actions.dtype.kind not in "iu" or actions.ndim != 1:
-        raise LogError(
-            f"{name}: actions: {actions.dtype}{list(actions.shape)}: not of a finite set"
-        )
+        raise LogError(f"{name}: actions: {actions.dtype}{list(actions.shape)}: must be ints")
     rewards, ends = np.concatenate(parts["r"]), np.concatenate(parts["e"])
     exploited = np.concatenate(parts["x"]) if parts["x"] else None
     if exploited is not None and len(exploited) != len(actions):
@@ -79,6 +60,17 @@ def from_minari(dataset: Any) -> Log:
     start = int(getattr(dataset.spec.action_space, "start", 0))
     actions = actions.astype(np.int64) - start
     return checked(Log(parts["before"], parts["after"], actions, rewards, ends, exploited, name))
+
+
+def _loaded(name: str) -> Any:
+    try:
+        import minari
+    except ImportError:
+        raise ImportError("Minari data sets need Minari: pip install 'rlvc[logs]'") from None
+    try:
+        return minari.load_dataset(name)
+    except (OSError, ValueError, KeyError) as error:
+        raise LogError(f"{name}: cannot be loaded: {error}") from error
 
 
 def _observations(observations: Any) -> list[Any]:

@@ -133,7 +133,9 @@ class _Drawing:
         self.axes = self.figure.add_axes((0, 0, 1, 1))
         self.axes.set_axis_off()
         width, height = self.figure.get_size_inches()
-        self.axes.text(0.15, 0.3, "Tests: the circled feature is looked for", fontsize=12, va="center")
+        self.axes.text(
+            0.15, 0.3, "Tests: the circled feature is looked for", fontsize=12, va="center"
+        )
         for place in self.places:
             self.test(place) if "test" in place.node else self.leaf(place)
         self.axes.set_xlim(0, width)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Pictures as percepts (sections 3 and 6.2): colour Harris points with local descriptors.
+"""Percepts from pictures (sections 3 and 6.2): colour Harris points with local descriptors.
 
-Needs the vision module, which is in the package if OpenCV was there when it was installed. A
-picture is an array of uint8: [height, width] of grey, or [height, width, 3] of colour, red first
-unless ``order`` says ``"bgr"``; in any layout, from 1 x 1 to 32767 x 32767 pixels. Source:
-``vision/include/rlvc/vision.h``.
+Needs the vision module, which is in the package if OpenCV was present when it was built. A picture
+is an array of uint8: grey [height, width], or colour [height, width, 3] with red first
+(``order="bgr"``: blue first). It may have any memory layout, and from 1 x 1 to 32767 x 32767
+pixels. Source: ``vision/include/rlvc/vision.h``.
 """
 
 from .config import DESCRIPTORS, VisionConfig

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The configuration of the feature extraction."""
+"""The config of the feature extraction."""
 
 from __future__ import annotations
 
@@ -16,47 +16,46 @@ from ..errors import (
 from .library import call, library
 
 DESCRIPTORS = ("invariants", "sqrt-invariants", "sift-upright", "sift", "orb")
-"""What can stand in a point's vector."""
+"""The descriptors."""
 
 FORMS = ("float", "int8")
 
 
 @dataclasses.dataclass(frozen=True)
 class VisionConfig:
-    """How pictures are looked at.
+    """How features are extracted from pictures.
 
     Attributes
     ----------
     descriptor : {"sift-upright", "sift", "orb", "invariants", "sqrt-invariants"}
-        What stands in a point's vector: SIFT, its window not turned, or turned to the point's own
-        direction; ORB; the published colour differential invariants of first order, or those with
-        the signed square root of their terms of second degree.
+        sift-upright: SIFT without rotation. sift: SIFT rotated to the direction of the point. orb:
+        ORB. invariants: the published colour differential invariants of first order.
+        sqrt-invariants: the same with the signed square root of the second-degree terms.
     points : int
-        P, the most points of a picture, [1, 1000]; the strongest are kept.
+        P, the maximum number of points of a picture, [1, 1000]; the strongest are kept.
     radius : int
-        In pixels: a point's response exceeds all others in the square of side 2 radius + 1, [1,
-        31].
+        In pixels, [1, 31]: a point has the largest response in the square of side 2 radius + 1.
     form : {"float", "int8"}
-        How a number of a vector stands in the percept.
+        Type of the vectors' elements in the percept.
     normalise : bool
-        Whether each channel of a picture is first brought to mean 128 and standard deviation 64.
+        Whether to first bring each channel of a picture to mean 128 and standard deviation 64.
     axes : int
-        Numbers of a vector in the percept: the first so many axes of a ``discriminant`` metric, at
-        most 255; 0: all numbers.
+        Length of the vectors in the percept: the first axes of a ``discriminant`` metric, [0, 255];
+        0: all elements.
     sd, si : float
-        In pixels: scale of the derivatives of the Harris response, [0.5, 4], and that over which it
-        integrates, [0.5, 8].
+        In pixels: the scale of the derivatives in the Harris response, [0.5, 4], and the scale of
+        its integration, [0.5, 8].
     k : float
         H = det M - k (trace M)^2, [0, 0.25).
     threshold : float
-        A point's response exceeds this share of the picture's largest, [0, 1).
+        The smallest response of a point, as a fraction of the picture's largest, [0, 1).
     sigma : float or None
-        In pixels: scale of the vectors, [0.5, 8], for SIFT [1, 8]. None: 2.5, SIFT 6, ORB 5.
+        In pixels: the scale of the descriptor, [0.5, 8], for SIFT [1, 8]. None: 2.5, SIFT 6, ORB 5.
 
     Raises
     ------
     ConfigError
-        A field is out of range; the text names it.
+        A field is out of range. The message names it.
     """
 
     descriptor: str = "sift-upright"
@@ -81,31 +80,41 @@ class VisionConfig:
         """Make the C struct."""
         for name, values in (("descriptor", DESCRIPTORS), ("form", FORMS)):
             if getattr(self, name) not in values:
-                raise ConfigError(f"{name}: {getattr(self, name)!r} is none of {', '.join(values)}")
+                raise ConfigError(
+                    f"{name}: {getattr(self, name)!r} is not one of {', '.join(values)}"
+                )
         native = _native.VisionConfig()
-        library.rlvc_vision_config_default(
-            DESCRIPTORS.index(self.descriptor), ctypes.byref(native)
-        )
+        library.rlvc_vision_config_default(DESCRIPTORS.index(self.descriptor), ctypes.byref(native))
         native.form = FORMS.index(self.form)
-        for name in ("points", "radius", "normalise", "axes", "sd", "si", "k", "threshold", "sigma"):
+        for name in (
+            "points",
+            "radius",
+            "normalise",
+            "axes",
+            "sd",
+            "si",
+            "k",
+            "threshold",
+            "sigma",
+        ):
             value = getattr(self, name)
             whole = {"points": 2**32, "radius": 2**32, "axes": 2**8}.get(name)
             if name == "sigma" and value is None:
                 continue
             if whole and (not isinstance(value, int) or not 0 <= value < whole):
-                raise ConfigError(f"{name}: {value!r} is no whole number in range")
+                raise ConfigError(f"{name}: {value!r} is not an int in range")
             try:
                 setattr(native, name, value)
             except TypeError:
-                raise ConfigError(f"{name}: {value!r} is no number") from None
+                raise ConfigError(f"{name}: {value!r} is not a number") from None
         return native
 
     @classmethod
     def of(cls, native: _native.VisionConfig) -> VisionConfig:
-        """Give the config that a C struct says."""
+        """Return the config of a C struct."""
         fields = {field.name: getattr(native, field.name) for field in dataclasses.fields(cls)}
         for name in ("sd", "si", "k", "threshold", "sigma"):
-            fields[name] = float(str(np.float32(fields[name])))  # 0.04, and not 0.03999999910593033
+            fields[name] = float(str(np.float32(fields[name])))  # 0.04, not 0.03999999910593033
         fields["descriptor"] = DESCRIPTORS[native.descriptor]
         fields["form"] = FORMS[native.form]
         fields["normalise"] = bool(native.normalise)
@@ -113,7 +122,7 @@ class VisionConfig:
 
 
 def config_of(config: VisionConfig | str, changes: dict[str, Any]) -> VisionConfig:
-    """Give a config with some fields changed; a str means the defaults for that descriptor."""
+    """Return a config with some fields changed; a str names a descriptor with its defaults."""
     if isinstance(config, str):
         config = VisionConfig(config)
     try:

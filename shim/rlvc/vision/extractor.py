@@ -20,16 +20,16 @@ from .metric import Metric
 
 
 class Sight(NamedTuple):
-    """What is seen of a picture.
+    """The percept of a picture, and its points.
 
     Attributes
     ----------
     percept : bytes
-        The record that an agent on :meth:`Extractor.domain` takes.
+        For an agent on :meth:`Extractor.domain`.
     vectors : ndarray of float32 or int8, [n, dimensions]
-        Strongest point first.
+        One for each point, strongest point first.
     points : ndarray of float32, [n, 3]
-        x, y in pixels, and the response, of each.
+        x and y in pixels, and the response.
     """
 
     percept: bytes
@@ -43,28 +43,28 @@ class Extractor(Owned):
     Parameters
     ----------
     config : VisionConfig, str or None
-        A str means the defaults for that descriptor. None: the metric's, or those of SIFT.
+        A str names a descriptor with its defaults. None: the config of the metric, or SIFT upright.
     metric : Metric or None
-        None: vectors are as the descriptor has them.
+        None: vectors are not transformed.
     **changes
-        Fields of the config to be changed.
+        Fields of the config to change.
 
     Attributes
     ----------
     config : VisionConfig
     metric : Metric or None
     dimensions : int
-        D: numbers of a vector.
+        D, the length of a vector.
     percept_bytes : int
     step : float
-        What one step of the percept's numbers is worth: tau / step is tau in their units.
+        Quantization step of the elements in the percept: tau / step is tau in their units.
 
     Raises
     ------
     ConfigError
         A field of the config is out of range.
     MetricError
-        The metric belongs to other vectors, or this config needs one.
+        The metric is for other vectors, or this config needs a metric.
 
     Examples
     --------
@@ -109,7 +109,7 @@ class Extractor(Owned):
         return record.tobytes()
 
     def extract(self, picture: Picture, order: Order = "rgb") -> bytes:
-        """Give the percept of a picture.
+        """Return the percept of a picture.
 
         Parameters
         ----------
@@ -119,17 +119,17 @@ class Extractor(Owned):
         Returns
         -------
         bytes
-            The record that an agent on :meth:`domain` takes.
+            For an agent on :meth:`domain`.
 
         Raises
         ------
         PictureError
-            The picture is of the wrong dtype, shape or size.
+            The picture has the wrong dtype, shape or size.
         """
         return self._record(picture, order, None)
 
     def extract_many(self, pictures: Iterable[Picture], order: Order = "rgb") -> Picture:
-        """Give the percepts of pictures, as an agent's methods for arrays take them.
+        """Return the percepts of pictures as an array.
 
         Parameters
         ----------
@@ -143,28 +143,13 @@ class Extractor(Owned):
         Raises
         ------
         PictureError
-            A picture is of the wrong dtype, shape or size.
+            A picture has the wrong dtype, shape or size.
         """
         records = b"".join(self.extract(picture, order) for picture in pictures)
         return np.frombuffer(records, np.uint8).reshape(-1, self.percept_bytes)
 
     def look(self, picture: Picture, order: Order = "rgb") -> Sight:
-        """Give the percept of a picture, and where its vectors were found.
-
-        Parameters
-        ----------
-        picture : ndarray of uint8, [height, width] or [height, width, 3]
-        order : {"rgb", "bgr"}
-
-        Returns
-        -------
-        Sight
-
-        Raises
-        ------
-        PictureError
-            The picture is of the wrong dtype, shape or size.
-        """
+        """Like :meth:`extract`, and also return the vectors and their points."""
         points = np.zeros((self.config.points, 3), np.float32)
         record = self._record(picture, order, points.ctypes.data)
         count = int(np.frombuffer(record, np.uint32, 1)[0])
@@ -173,12 +158,12 @@ class Extractor(Owned):
         return Sight(record, numbers.reshape(count, self.dimensions), points[:count])
 
     def domain(self, radius: float | None = None, **parameters: Any) -> Descriptors:
-        """Give the domain of these percepts.
+        """Return the domain of the percepts.
 
         Parameters
         ----------
         radius : float or None
-            In units of the percept's numbers. None: the metric's tau.
+            In units of the elements in the percept. None: the metric's tau.
         **parameters
             ``candidates``, ``draws`` and ``margin`` of :class:`rlvc.Descriptors`.
 
@@ -189,13 +174,13 @@ class Extractor(Owned):
         Raises
         ------
         MetricError
-            There is neither a radius nor a metric.
+            There is no radius and no metric.
         ConfigError
             A parameter is out of range.
         """
         if radius is None:
             if self.metric is None:
-                raise MetricError("radius: give one, or make the extractor with a metric")
+                raise MetricError("radius: pass one, or make the extractor with a metric")
             radius = self.metric.tau / self.step
         form: Any = self.config.form
         return Descriptors(self.config.points, self.dimensions, radius, form, **parameters)

@@ -12,15 +12,15 @@ from .library import Order, Picture
 
 
 class Eye:
-    """An encoder of pictures for :func:`rlvc.learn`: an extractor, and the domain of its percepts.
+    """An encoder of pictures for :func:`rlvc.learn`: an extractor with the domain of its percepts.
 
     Parameters
     ----------
     extractor : Extractor
     order : {"rgb", "bgr"}
-        Of the environment's pictures.
+        Order of the colours in the environment's pictures.
     cache : int
-        How many pictures are remembered with their percepts: environments show the same ones again.
+        Number of pictures whose percepts are cached, as environments often repeat pictures.
     **parameters
         ``radius``, ``candidates``, ``draws`` and ``margin``, as for :meth:`Extractor.domain`.
 
@@ -41,7 +41,7 @@ class Eye:
         self._known: dict[tuple[Any, bytes], bytes] = {}
 
     def encode(self, observation: Picture) -> bytes:
-        """Give the percept of a picture.
+        """Return the percept of a picture.
 
         Parameters
         ----------
@@ -54,40 +54,26 @@ class Eye:
         Raises
         ------
         PictureError
-            The picture is of the wrong dtype, shape or size.
+            The picture has the wrong dtype, shape or size.
         """
         if not isinstance(observation, np.ndarray):
-            return self.extractor.extract(observation, self._order)  # which says what is wrong
+            return self.extractor.extract(observation, self._order)  # which raises
         key = ((observation.shape, observation.dtype), observation.tobytes())
         known = self._known.pop(key, None)
         if known is None:
             known = self.extractor.extract(observation, self._order)
             if len(self._known) >= self._cache > 0:
-                del self._known[next(iter(self._known))]  # the longest not seen
+                del self._known[next(iter(self._known))]  # the least recently used
         if self._cache > 0:
             self._known[key] = known
         return known
 
     def look(self, picture: Picture) -> Sight:
-        """Give the percept of a picture, and where its vectors were found.
-
-        Parameters
-        ----------
-        picture : ndarray of uint8, [height, width] or [height, width, 3]
-
-        Returns
-        -------
-        Sight
-
-        Raises
-        ------
-        PictureError
-            The picture is of the wrong dtype, shape or size.
-        """
+        """Like :meth:`encode`, and also return the vectors and their points."""
         return self.extractor.look(picture, self._order)
 
     def explain(self, text: str) -> str:
-        """Leave a tree's text as it is: a feature's name says all there is in words.
+        """Return the text unchanged: features of pictures have no other names.
 
         Parameters
         ----------

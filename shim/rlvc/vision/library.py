@@ -50,6 +50,7 @@ def call(name: str, *arguments: Any) -> None:
         ).decode(errors="replace")
         raise _ERRORS.get(status, Error)(text)
 
+
 Order = Literal["rgb", "bgr"]
 Picture: TypeAlias = "npt.NDArray[np.uint8]"
 _FORMATS = {"rgb": 2, "bgr": 1}
@@ -59,17 +60,20 @@ _SIDE_MAX = 32767
 def native_picture(picture: Any, order: Order) -> _native.Picture:
     """Make the C struct of a picture, which keeps its pixels alive."""
     if order not in _FORMATS:
-        raise PictureError(f"order: {order!r} is none of rgb, bgr")
+        raise PictureError(f"order: {order!r} is not one of rgb, bgr")
     if not isinstance(picture, np.ndarray):
-        raise PictureError(f"a picture is an array, not {type(picture).__name__}")
+        raise PictureError(f"a picture must be an array, not {type(picture).__name__}")
     if picture.dtype != np.uint8:
-        raise PictureError(f"a picture of {picture.dtype}, not uint8")
+        raise PictureError(f"a picture is {picture.dtype}, expected uint8")
     grey = picture.ndim == 2
     if not grey and (picture.ndim != 3 or picture.shape[2] != 3):
-        raise PictureError(f"a picture of {list(picture.shape)}, not [height, width] or [..., 3]")
+        raise PictureError(
+            f"a picture is {list(picture.shape)}, expected [height, width] or [..., 3]"
+        )
     if not 1 <= min(picture.shape[:2]) <= max(picture.shape[:2]) <= _SIDE_MAX:
         raise PictureError(
-            f"a picture of {picture.shape[1]} x {picture.shape[0]} pixels: a side is 1 to {_SIDE_MAX}"
+            f"a picture has {picture.shape[1]} x {picture.shape[0]} pixels: each side must be in "
+            f"[1, {_SIDE_MAX}]"
         )
     pixel = (1,) if grey else (3, 1)
     if picture.strides[1:] != pixel or abs(picture.strides[0]) < picture.shape[1] * pixel[0]:
@@ -82,7 +86,7 @@ def native_picture(picture: Any, order: Order) -> _native.Picture:
 
 
 class Owned:
-    """An object of the library's, freed with this one. One thread at a time: the lock sees to that."""
+    """An object of the library, freed with this one. The lock admits one thread at a time."""
 
     def __init__(self, make: str, free: str, *arguments: Any) -> None:
         self._lock = threading.Lock()

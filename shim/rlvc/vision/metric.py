@@ -19,23 +19,23 @@ from .config import VisionConfig, config_of
 from .library import Order, Owned, Picture, call, library, native_picture
 
 METRICS = ("plain", "covariance", "change", "discriminant")
-"""How a metric can be fitted."""
+"""The kinds of metrics."""
 _PAIRS = ("copies", "views")
 
 
 class Metric(Owned):
-    """What is known of the vectors of one descriptor: how to whiten them, and tau.
+    """A metric on the vectors of one descriptor: a linear map, and the radius tau.
 
-    Made by :meth:`fit`, :meth:`load` or :meth:`read`. It can be pickled.
+    :meth:`fit`, :meth:`load` and :meth:`read` make one. It can be pickled.
 
     Attributes
     ----------
     tau : float
-        Within this distance two vectors count as the same feature.
+        Two vectors within this distance count as the same feature.
     kind : str
-        How it was fitted: one of :data:`METRICS`.
+        One of :data:`METRICS`.
     config : VisionConfig
-        With which it was fitted.
+        The config that it was fitted with.
     """
 
     def __init__(self, make: str, *arguments: Any) -> None:
@@ -65,21 +65,24 @@ class Metric(Owned):
         ----------
         pictures : iterable of ndarray of uint8, [height, width] or [height, width, 3]
         objects : sequence of int or None
-            What is to be seen in each. Pictures of one object are not asked whether they exhibit
-            each other's features when tau is sought. None: something else in each.
+            The object in each picture. To choose tau, a feature is only compared with pictures of
+            other objects. None: each picture has another object.
         pairs : iterable of (ndarray, ndarray, {"copies", "views"})
-            Two pictures of the same, for the metrics of ``change`` and ``discriminant``: the second
-            is the first in other light, noise or the like (of one size), or a neighbouring view.
+            Pairs of pictures of the same object, for the kinds ``change`` and ``discriminant``.
+            copies: the second is the first with other light, noise or the like, of the same size.
+            views: a neighbouring view.
         config : VisionConfig or str
-            A str means the defaults for that descriptor.
+            A str names a descriptor with its defaults.
         kind : {"plain", "covariance", "change", "discriminant"} or None
-            tau alone; Mahalanobis's distance; by what changes within the pairs; or likewise, on the
-            axes along which vectors differ most. None: plain for SIFT and ORB, else covariance.
+            plain: Euclidean distance. covariance: Mahalanobis distance. change: weighted by the
+            changes within the pairs. discriminant: likewise, on the axes that separate vectors
+            best. None: plain for SIFT and ORB, else covariance.
         share : float
-            tau is such that of the other objects' pictures this share exhibits a feature, (0, 1).
+            tau is chosen so that this fraction of the other objects' pictures exhibits a feature,
+            (0, 1).
         order : {"rgb", "bgr"}
         **changes
-            Fields of the config to be changed.
+            Fields of the config to change.
 
         Returns
         -------
@@ -90,23 +93,23 @@ class Metric(Owned):
         ConfigError
             A field of the config is out of range.
         PictureError
-            A picture is of the wrong dtype, shape or size.
+            A picture has the wrong dtype, shape or size.
         MetricError
             There are too few pictures, vectors or pairs.
         RangeError
-            ``share``, ``kind`` or ``how`` is out of range, or ``objects`` of another length.
+            ``share``, ``kind`` or a pair is out of range, or ``objects`` has another length.
         """
         chosen = config_of(config, changes)
         if kind is None:
             kind = "covariance" if "invariants" in chosen.descriptor else "plain"
         if kind not in METRICS:
-            raise RangeError(f"kind: {kind!r} is none of {', '.join(METRICS)}")
+            raise RangeError(f"kind: {kind!r} is not one of {', '.join(METRICS)}")
         native = chosen.native()
         fitter = Owned("rlvc_fitter_create", "rlvc_fitter_destroy", ctypes.byref(native))
         seen = list(pictures)
         numbers = range(len(seen)) if objects is None else objects
         if len(numbers) != len(seen):
-            raise RangeError(f"objects: {len(numbers)} of them for {len(seen)} pictures")
+            raise RangeError(f"objects: {len(numbers)} for {len(seen)} pictures")
         for picture, number in zip(seen, numbers, strict=True):
             one = native_picture(picture, order)
             if not 0 <= int(number) < 2**32:
@@ -114,7 +117,7 @@ class Metric(Owned):
             call("rlvc_fitter_add", fitter._handle, ctypes.byref(one), int(number))
         for before, after, how in pairs:
             if how not in _PAIRS:
-                raise RangeError(f"pairs: {how!r} is none of {', '.join(_PAIRS)}")
+                raise RangeError(f"pairs: {how!r} is not one of {', '.join(_PAIRS)}")
             two = [native_picture(picture, order) for picture in (before, after)]
             references = (ctypes.byref(native) for native in two)
             call("rlvc_fitter_pair", fitter._handle, *references, _PAIRS.index(how))
@@ -137,7 +140,7 @@ class Metric(Owned):
         StoreError
             The file cannot be read.
         MetricError
-            It is no metric, or is damaged; the text says where.
+            It is not a metric, or is damaged. The message names the place.
         """
         try:
             text = files.read(file)
@@ -150,7 +153,7 @@ class Metric(Owned):
 
     @classmethod
     def read(cls, text: bytes) -> Metric:
-        """Read a metric from what :meth:`write` gave.
+        """Read a metric from a result of :meth:`write`.
 
         Parameters
         ----------
@@ -163,12 +166,12 @@ class Metric(Owned):
         Raises
         ------
         MetricError
-            It is no metric, or is damaged; the text says where.
+            It is not a metric, or is damaged. The message names the place.
         """
         return cls("rlvc_metric_read", bytes(text), len(text))
 
     def save(self, file: str | Path) -> None:
-        """Write the metric to a file, which is there as a whole or as it was before.
+        """Write the metric to a file. If that fails, an existing file stays as it was.
 
         Parameters
         ----------
@@ -182,7 +185,7 @@ class Metric(Owned):
         files.replace(file, self.write())
 
     def write(self) -> bytes:
-        """Give the metric as JSON.
+        """Return the metric as JSON.
 
         Returns
         -------
@@ -193,9 +196,7 @@ class Metric(Owned):
         while True:
             room = len(text)
             error = ctypes.byref(_native.VisionError())
-            status = library.rlvc_metric_write(
-                self._handle, text, room, ctypes.byref(count), error
-            )
+            status = library.rlvc_metric_write(self._handle, text, room, ctypes.byref(count), error)
             if status == 0:
                 return text.raw[: count.value]
             if count.value <= room:
@@ -203,5 +204,5 @@ class Metric(Owned):
             text = ctypes.create_string_buffer(count.value)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the text."""
+        """Pickle the JSON."""
         return type(self).read, (self.write(),)
