@@ -25,7 +25,7 @@ FLAGS = ["-std=c99", "-ffp-contract=off", "-mno-red-zone", "-fno-stack-protector
 # What a compiler makes calls of on its own, and the bytes that the table grants each.
 EXTERNAL = {"memcpy": 64, "memmove": 64, "memset": 64, "memcmp": 64, "strlen": 64}
 # The pointers that the core may call through: the domain's callbacks, and those of the caller's files.
-INDIRECT = re.compile(r"\b(exhibits|candidates|detect|oracle|name|read|write|erase|sync)\s*\(")
+INDIRECT = re.compile(r"\b(exhibits|candidates|detect|oracle|name|check_percept|check_feature|read|write|erase|sync)\s*\(")
 PLACEHOLDER = "__indirect_call"
 
 Function = collections.namedtuple("Function", "name place bytes kind")
