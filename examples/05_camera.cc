@@ -14,6 +14,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "opencv_picture.h"
+
 #include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 #include "rlvc/snapshot.h"
@@ -100,16 +102,6 @@ class Source {
     std::size_t at_ = 0;
     bool folder_ = false, camera_ = false;
 };
-
-rlvc_picture picture_of(const cv::Mat &frame) {
-    rlvc_picture picture{};
-    picture.pixels = frame.data;
-    picture.stride = static_cast<std::ptrdiff_t>(frame.step);
-    picture.width = static_cast<uint32_t>(frame.cols);
-    picture.height = static_cast<uint32_t>(frame.rows);
-    picture.format = RLVC_PICTURE_BGR;
-    return picture;
-}
 
 // From a frame to a percept, by a metric.
 class Eye {

@@ -46,34 +46,51 @@ static size_t line_length(const char *text, size_t bytes, size_t at, size_t *nex
     return end < bytes && end > at && text[end - 1] == '\r' ? end - at - 1 : end - at;
 }
 
+/* The first sign of the line that is no cell, or its length. */
+static size_t cells_of_line(const char *line, size_t length) {
+    size_t i = 0;
+    while (i < length && is_cell(line[i])) {
+        i++;
+    }
+    return i;
+}
+
+/* What is wrong with a line of cells, or NULL, and in which column. */
+static const char *fault_of_line(const gridworld_maze *maze, size_t length, size_t room,
+                                 uint32_t *column) {
+    *column = 1;
+    if (maze->height == GRIDWORLD_SIDE_MAX) {
+        return "a maze is at most 256 cells high";
+    }
+    if (length == 0) {
+        return "this line is empty";
+    }
+    if (maze->height > 0 && length != maze->width) {
+        *column = 1 + (length < maze->width ? (uint32_t)length : maze->width);
+        return length < maze->width ? "this line is shorter than the first"
+                                    : "this line is longer than the first";
+    }
+    return length > room - (size_t)maze->height * maze->width ? "no memory for this line" : NULL;
+}
+
 static int read_line(gridworld_maze *maze, const char *line, size_t length, unsigned char *cells,
                      size_t room, gridworld_error *error) {
     const uint32_t number = maze->height + 1;
     const size_t first = (size_t)maze->height * maze->width;
+    const size_t readable = cells_of_line(line, length);
+    const char *fault;
+    uint32_t column;
     size_t i;
-    for (i = 0; i < length && i < GRIDWORLD_SIDE_MAX; i++) {
-        if (!is_cell(line[i])) {
-            return fail(error, number, (uint32_t)i + 1,
-                        "a cell is '#' (wall), '.' (free) or '*' (exit), and this is none");
-        }
+    if (readable < length && readable < GRIDWORLD_SIDE_MAX) {
+        return fail(error, number, (uint32_t)readable + 1,
+                    "not a cell: expected '#' (wall), '.' (free) or '*' (exit)");
     }
     if (length > GRIDWORLD_SIDE_MAX) {
         return fail(error, number, GRIDWORLD_SIDE_MAX + 1, "a maze is at most 256 cells wide");
     }
-    if (number > GRIDWORLD_SIDE_MAX) {
-        return fail(error, number, 1, "a maze is at most 256 cells high");
-    }
-    if (length == 0) {
-        return fail(error, number, 1, "this line is empty");
-    }
-    if (maze->height > 0 && length != maze->width) {
-        const uint32_t shorter = length < maze->width ? (uint32_t)length : maze->width;
-        return fail(error, number, shorter + 1,
-                    length < maze->width ? "this line is shorter than the first"
-                                         : "this line is longer than the first");
-    }
-    if (length > room - first) {
-        return fail(error, number, 1, "no memory for this line");
+    fault = fault_of_line(maze, length, room, &column);
+    if (fault) {
+        return fail(error, number, column, fault);
     }
     for (i = 0; i < length; i++) {
         cells[first + i] = (unsigned char)line[i];

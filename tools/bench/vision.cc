@@ -7,6 +7,8 @@
 #include "eye.h"
 #include "picture.h"
 
+#include "opencv_picture.h"
+
 #include "rlvc/vision.h"
 
 #include <benchmark/benchmark.h>
@@ -64,11 +66,6 @@ cv::Mat photographed(const std::string &folder, cv::Size size) {
     cv::Mat all;
     cv::repeat(one, size.height / one.rows + 1, size.width / one.cols + 1, all);
     return all(cv::Rect(cv::Point(), size)).clone();
-}
-
-rlvc_picture picture_of(const cv::Mat &image) {
-    return {image.data, static_cast<ptrdiff_t>(image.step), static_cast<uint32_t>(image.cols),
-            static_cast<uint32_t>(image.rows), RLVC_PICTURE_BGR};
 }
 
 rlvc_vision_config config_of(uint32_t descriptor, bool normalise) {

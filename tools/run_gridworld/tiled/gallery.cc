@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "gallery.h"
 
-#include "../check.h"
-#include "../interrupt.h"
+#include "../cli/check.h"
+#include "../cli/interrupt.h"
+
+#include "opencv_picture.h"
 
 #include <algorithm>
 #include <ctime>
 
 namespace {
 
-// `where` is the option whose value may be at fault, or nothing.
+// `where` is the option whose value may be wrong, or empty.
 void check_vision(rlvc_vision_status status, const rlvc_vision_error &error,
                   const std::string &where = "") {
     if (status != RLVC_VISION_OK) {
@@ -18,23 +20,13 @@ void check_vision(rlvc_vision_status status, const rlvc_vision_error &error,
     }
 }
 
-rlvc_picture as_picture(const cv::Mat &mat) {
-    rlvc_picture picture{};
-    picture.pixels = mat.data;
-    picture.stride = static_cast<std::ptrdiff_t>(mat.step);
-    picture.width = static_cast<uint32_t>(mat.cols);
-    picture.height = static_cast<uint32_t>(mat.rows);
-    picture.format = mat.channels() == 1 ? RLVC_PICTURE_GREY : RLVC_PICTURE_BGR;
-    return picture;
-}
-
 bool is_invariants(uint32_t descriptor) {
     return descriptor == RLVC_DESCRIPTOR_INVARIANTS ||
            descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS;
 }
 
-// The published vectors are compared by Mahalanobis's distance; their square roots by what changes
-// from view to view, if there are views, or from copy to copy.
+// The published vectors are compared by the Mahalanobis distance; their square roots by their
+// change between views or copies, if there are several.
 uint32_t kind_of_metric(const TiledOptions &options) {
     if (options.descriptor == RLVC_DESCRIPTOR_INVARIANTS) {
         return RLVC_METRIC_COVARIANCE;
@@ -63,7 +55,7 @@ rlvc_vision_config make_config(const TiledOptions &options) {
 
 using Fitter = std::unique_ptr<rlvc_fitter, void (*)(rlvc_fitter *)>;
 
-// Only of pictures to learn from: nothing of those held out is looked at.
+// Adds the pictures to learn from, and no held-out picture.
 void feed(rlvc_fitter *fitter, const TiledOptions &options, const std::vector<Object> &objects) {
     rlvc_vision_error error{};
     std::mt19937 random(options.seed);
@@ -71,7 +63,7 @@ void feed(rlvc_fitter *fitter, const TiledOptions &options, const std::vector<Ob
         const cv::Mat &first = objects[i].views.at(options.poses.front());
         for (const int angle : options.poses) {
             const cv::Mat &view = objects[i].views.at(angle);
-            const rlvc_picture a = as_picture(first), b = as_picture(view);
+            const rlvc_picture a = picture_of(first), b = picture_of(view);
             check_vision(rlvc_fitter_add(fitter, &b, i, &error), error);
             if (angle != options.poses.front()) {
                 check_vision(rlvc_fitter_pair(fitter, &a, &b, RLVC_PAIR_VIEWS, &error), error);
@@ -79,7 +71,7 @@ void feed(rlvc_fitter *fitter, const TiledOptions &options, const std::vector<Ob
         }
         if (options.light > 0.0f || options.noise > 0.0f) {
             const cv::Mat changed = disturb(first, options, random);
-            const rlvc_picture a = as_picture(first), b = as_picture(changed);
+            const rlvc_picture a = picture_of(first), b = picture_of(changed);
             check_vision(rlvc_fitter_pair(fitter, &a, &b, RLVC_PAIR_COPIES, &error), error);
         }
     }
@@ -135,7 +127,7 @@ Sight Gallery::look(uint32_t object, int angle, const cv::Mat &picture) {
     rlvc_vision_error error{};
     Sight sight{object, angle, std::vector<uint32_t>(rlvc_vision_percept_bytes(&config_) / 4),
                 std::vector<rlvc_point>(config_.points)};
-    const rlvc_picture seen = as_picture(picture);
+    const rlvc_picture seen = picture_of(picture);
     check_vision(rlvc_extractor_extract(extractor_.get(), &seen, sight.percept.data(),
                                         sight.percept.size() * 4, sight.points.data(), &error),
                  error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an agent can see: the percepts of all views of all objects, made once before any learning.
+// The percepts of all views of all objects, made once before learning.
 #ifndef RUN_GRIDWORLD_TILED_GALLERY_H
 #define RUN_GRIDWORLD_TILED_GALLERY_H
 
@@ -11,15 +11,15 @@
 #include <functional>
 #include <memory>
 
-// One picture as the agent sees it.
+// A picture as the agent sees it.
 struct Sight {
     uint32_t object = 0;
     int angle = 0;
-    std::vector<uint32_t> percept; // the record; whole words, for its alignment
+    std::vector<uint32_t> percept; // the record, in whole words for alignment
     std::vector<rlvc_point> points;
 };
 
-// Where a vector was found.
+// Where a vector comes from.
 struct Place {
     uint32_t object;
     int angle;
@@ -36,7 +36,7 @@ class Gallery {
         return objects_;
     }
 
-    // The pictures of an object to learn from, and those held out.
+    // The pictures of an object to learn from, and its held-out pictures.
     const std::vector<Sight> &seen(uint32_t object) const {
         return seen_[object];
     }
@@ -48,7 +48,7 @@ class Gallery {
         return descriptors_;
     }
 
-    // The domain of these percepts: it points into the gallery.
+    // The domain of these percepts; it points into the gallery.
     rlvc_domain domain();
 
     // Where the vector of a feature comes from; null if from no picture to learn from.
@@ -57,7 +57,7 @@ class Gallery {
     double tau() const {
         return double{tau_};
     }
-    double milliseconds() const { // to make a percept of a picture
+    double milliseconds() const { // for each picture, to make its percept
         return milliseconds_;
     }
 

@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
-#include "../arguments.h"
-#include "../failure.h"
+#include "../cli/failure.h"
 
 #include "rlvc/rlvc.h"
 #include "rlvc/vision.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace {
 
-constexpr float sift_sigma = 6.0f; // a wide window: it loses poses less than it tells objects apart
+// A wide window of SIFT separates objects better, at little loss between poses.
+constexpr float sift_sigma = 6.0f, other_sigma = 2.5f;
 
-// Adds an option for a number, a whole number or a file. Its range stands in the help.
-void add(CLI::App &app, const std::string &name, float &into, float low, float high,
-         const char *text) {
-    std::ostringstream range;
-    range << low << ".." << high;
-    app.add_option(name, into, text)->type_name(range.str())->check(number(low, high));
-}
+const std::vector<Named> descriptors{{"sift-upright", RLVC_DESCRIPTOR_SIFT_UPRIGHT},
+                                     {"sift", RLVC_DESCRIPTOR_SIFT},
+                                     {"orb", RLVC_DESCRIPTOR_ORB},
+                                     {"invariants", RLVC_DESCRIPTOR_INVARIANTS},
+                                     {"sqrt-invariants", RLVC_DESCRIPTOR_SQRT_INVARIANTS}};
 
-void add(CLI::App &app, const std::string &name, uint32_t &into, uint32_t low, uint32_t high,
-         const char *text) {
-    app.add_option(name, into, text)
-        ->type_name(std::to_string(low) + ".." + std::to_string(high))
-        ->check(whole(low, high));
-}
+constexpr LearningTexts texts{
+    "returns: interactions of each step (2000); residual: of the run (4500)",
+    "learning steps (returns: 20; residual: 12)",
+    "probability of exploring (returns: 0.8; residual: 1)",
+    "bound on the probability of any test if there is nothing to learn (0.005)",
+    "most classes of the tree (4 for each cell, and 16)",
+    "make N runs with seeds from --seed on (1)",
+    "write the tree of the first run for Graphviz",
+};
+constexpr Schedule returns_schedule{2000, 20, 0.8f}, residual_schedule{4500, 12, 1.0f};
+constexpr float default_alpha = 0.005f;
 
-void add(CLI::App &app, const std::string &name, std::string &into, const char *text) {
-    app.add_option(name, into, text)->type_name("FILE")->check(file_name());
+// Adds an option for a number.
+void add_number(CLI::App &app, const std::string &name, float &into, float low, float high,
+                const char *text) {
+    app.add_option(name, into, text)->type_name("X")->check(number(low, high));
 }
 
 int angle_of(const std::string &option, const std::string &text) {
@@ -66,99 +70,70 @@ void add_angles(CLI::App &app, const std::string &name, std::vector<int> &into, 
 
 void add_world(CLI::App &app, TiledOptions &options) {
     app.add_option("--images", options.images,
-                   "pictures objN__ANGLE.* as of COIL-100; any others: a file an object (built-in "
-                   "objects)")
+                   "pictures objN__ANGLE.* as of COIL-100, or a file an object (built-in)")
         ->type_name("DIR")
         ->check(file_name());
     app.add_option("--maze", options.maze, "small (10 cells), sutton (46), or a file (sutton)")
         ->type_name("MAZE")
         ->check(file_name());
-    add_angles(app, "--poses", options.poses, "degrees from which objects are seen: 0,20,-20 (0)");
+    add_angles(app, "--poses", options.poses, "degrees to see objects from: 0,20,-20 (0)");
     add_angles(app, "--test-poses", options.test_poses,
-               "degrees held out (those of --poses, in other light)");
-    add(app, "--light", options.light, 0, 0.99f, "light varies by +- this share (0)");
-    add(app, "--noise", options.noise, 0, 255, "standard deviation in grey levels (0)");
-    add(app, "--blur", options.blur, 0, 100, "standard deviation in pixels (0)");
-    add(app, "--jpeg", options.jpeg, 1, 100, "compress at this quality (not)");
-    add(app, "--copies", options.copies, 1, 1000, "pictures of each view, if they differ (8)");
+               "degrees held out from learning (those of --poses, in other light)");
+    add_number(app, "--light", options.light, 0, 0.99f, "light varies by +- this share (0)");
+    add_number(app, "--noise", options.noise, 0, 255, "standard deviation in grey levels (0)");
+    add_number(app, "--blur", options.blur, 0, 100, "standard deviation in pixels (0)");
+    add_whole(app, "--jpeg", options.jpeg, 1, 100, "compress with this quality (no compression)");
+    add_whole(app, "--copies", options.copies, 1, 1000,
+              "pictures of each view, if light or noise varies (8)");
 }
 
 void add_seeing(CLI::App &app, TiledOptions &options) {
-    options.descriptor = RLVC_DESCRIPTOR_SIFT_UPRIGHT;
-    app.add_option_function<std::string>(
-           "--descriptor",
-           [&options](const std::string &name) {
-               rlvc_descriptor_named(name.c_str(), &options.descriptor);
-           },
-           "invariants, sqrt-invariants, sift-upright, sift or orb (sift-upright)")
-        ->type_name("NAME")
-        ->check(one_of({"invariants", "sqrt-invariants", "sift-upright", "sift", "orb"}));
-    add(app, "--points", options.points, 1, RLVC_POINTS_MAX, "points of a picture, at most (30)");
-    add(app, "--sigma", options.sigma, 0.5f, 8, "scale of the vectors in pixels (by descriptor)");
-    add(app, "--axes", options.axes, 0, 128,
-        "discriminant axes of SIFT, where views or light differ; 0: SIFT as it is (16)");
-    add(app, "--share", options.share, 0.001f, 0.999f,
-        "of the other objects' pictures that have a feature at tau (0.035)");
-    add(app, "--margin", options.margin, 1, 16, "of the margin rule; 1: a fixed tau (1.8)");
-    add(app, "--candidates", options.candidates, 1, 65535, "features looked at for a class (64)");
+    add_named(app, "--descriptor", descriptors, options.descriptor,
+              "sift-upright (default), sift, orb, invariants or sqrt-invariants");
+    add_whole(app, "--points", options.points, 1, RLVC_POINTS_MAX, "most points of a picture (30)");
+    add_number(app, "--sigma", options.sigma, 0.5f, 8,
+               "scale of the vectors in pixels (SIFT: 6; others: 2.5)");
+    add_whole(app, "--axes", options.axes, 0, 128,
+              "discriminant axes of SIFT, if views or light differ; 0: plain SIFT (16)");
+    add_number(app, "--share", options.share, 0.001f, 0.999f,
+               "share of the other objects' pictures that exhibit a feature at tau (0.035)");
+    add_number(app, "--margin", options.margin, 1, 16, "margin rule; 1: a fixed tau (1.8)");
+    add_whole(app, "--candidates", options.candidates, 1, 65535,
+              "features tried for each class (64)");
     app.add_flag_callback(
            "--raw-light", [&options] { options.normalise = false; },
-           "leave the light of pictures as it is")
+           "do not normalise the light of pictures")
         ->disable_flag_override();
-    add(app, "--metric", options.metric, "use this metric instead of fitting one");
-    add(app, "--save-metric", options.save_metric, "keep the metric");
-}
-
-void add_learning(CLI::App &app, TiledOptions &options) {
-    add_criterion(app, options.criterion);
-    add(app, "--interactions", options.interactions, 1, 1000000,
-        "returns: of each step (2000); residual: of the run (4500)");
-    add(app, "--steps", options.steps, 1, 10000, "learning steps (returns: 20; residual: 12)");
-    add(app, "--gamma", options.gamma, 0, 0.999f, "discount of future rewards (0.9)");
-    add(app, "--epsilon", options.epsilon, 0, 1, "probability of exploring (returns: 0.8, else 1)");
-    add(app, "--alpha", options.alpha, 1e-30f, 1,
-        "probability that a run with nothing to learn takes up a feature, at most (0.005)");
-    add(app, "--classes", options.classes, 1, 65535, "classes the tree may grow to (four a cell)");
-    add(app, "--seed", options.seed, 0, UINT32_MAX, "of everything random (1)");
-    add(app, "--runs", options.runs, 1, 100000, "runs with the seeds from --seed on (1)");
-    add(app, "--json", options.json, "write a report");
-    add(app, "--dot", options.dot, "write the first run's tree for Graphviz");
-    add(app, "--snapshot", options.snapshot, "write the first run's agent");
+    add_file(app, "--metric", options.metric, "use this metric instead of fitting one");
+    add_file(app, "--save-metric", options.save_metric, "write the metric");
 }
 
 void settle(TiledOptions &options) {
-    const bool returns = options.criterion == RLVC_CRITERION_RETURNS;
-    if (options.interactions == 0) {
-        options.interactions = returns ? 2000 : 4500;
-    }
-    if (options.steps == 0) {
-        options.steps = returns ? 20 : std::min(12U, options.interactions);
-    }
-    if (!returns && options.steps > options.interactions) {
-        throw Failure("--steps: at most one for each of the " +
-                      std::to_string(options.interactions) + " interactions");
-    }
-    if (options.epsilon < 0.0f) {
-        options.epsilon = returns ? 0.8f : 1.0f;
+    settle_schedule(options, options.returns() ? returns_schedule : residual_schedule);
+    options.runs = std::max(options.runs, 1u);
+    if (options.alpha == 0.0f) {
+        options.alpha = default_alpha;
     }
     if (options.sigma == 0.0f) {
         const bool sift = options.descriptor == RLVC_DESCRIPTOR_SIFT ||
                           options.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
-        options.sigma = sift ? sift_sigma : 2.5f;
+        options.sigma = sift ? sift_sigma : other_sigma;
     }
     if (options.light == 0.0f && options.noise == 0.0f) {
-        options.copies = 1; // they would all be alike
+        options.copies = 1; // they would all be the same
     }
 }
 
 } // namespace
 
 bool read_tiled_options(int argc, char **argv, TiledOptions &options) {
-    CLI::App app("The Tiled Gridworld (section 6.2): a cell is seen as pictures of an object",
+    CLI::App app("Learns a maze whose cells are seen as pictures of objects (the Tiled Gridworld, "
+                 "section 6.2).\nDefaults are in parentheses.",
                  "run_gridworld tiled");
+    add_learning_options(app, options, texts);
     add_world(app, options);
     add_seeing(app, options);
-    add_learning(app, options);
+    add_file(app, "--snapshot", options.snapshot, "write the agent of the first run");
     if (!parse(app, argc, argv)) {
         return false;
     }

@@ -3,11 +3,9 @@
 #ifndef RUN_GRIDWORLD_TILED_OPTIONS_H
 #define RUN_GRIDWORLD_TILED_OPTIONS_H
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "../cli/learning_options.h"
 
-struct TiledOptions {
+struct TiledOptions : LearningOptions {
     // The world.
     std::string images; // a folder; empty: the built-in objects
     std::string maze = "sutton";
@@ -19,7 +17,7 @@ struct TiledOptions {
     uint32_t copies = 8;                   // pictures of each view, if they differ at all
 
     // Seeing.
-    uint32_t descriptor = 0; // RLVC_DESCRIPTOR_*
+    uint8_t descriptor = 0; // RLVC_DESCRIPTOR_*
     uint32_t points = 30;
     uint32_t axes = 16;   // of SIFT that a metric keeps; 0: SIFT as it is
     float sigma = 0.0f;   // 0: the descriptor's default
@@ -29,20 +27,11 @@ struct TiledOptions {
     bool normalise = true;
     std::string metric, save_metric; // files
 
-    // Learning.
-    uint8_t criterion = 0;
-    uint32_t interactions = 0, steps = 0; // 0: by the criterion
-    float gamma = 0.9f;
-    float epsilon = -1.0f; // negative: by the criterion
-    float alpha = 0.005f;
-    uint32_t classes = 0; // 0: four a cell
-    uint32_t seed = 1;
-    uint32_t runs = 1;
-    std::string json, dot, snapshot;
+    std::string snapshot; // a file; empty: none
 };
 
-// Reads the command line, of which argv[0] is "tiled". Throws Failure. False: help was asked for and
-// given.
+// Reads the command line; argv[0] is "tiled". Returns false if it asked for --help or --version,
+// which is printed then. Throws Failure.
 bool read_tiled_options(int argc, char **argv, TiledOptions &options);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures.h"
 
-#include "../failure.h"
+#include "../cli/failure.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

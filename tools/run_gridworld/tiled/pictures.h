@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pictures of the objects that lie in the maze's cells.
+// The pictures of the objects in the maze's cells.
 #ifndef RUN_GRIDWORLD_TILED_PICTURES_H
 #define RUN_GRIDWORLD_TILED_PICTURES_H
 
@@ -9,10 +9,10 @@
 
 #include <random>
 
-// One for each cell at least. Throws Failure.
+// At least `wanted` objects: one for each cell. Throws Failure.
 std::vector<Object> find_objects(const TiledOptions &options, uint32_t wanted);
 
-// The picture in other light, with noise, blurred and compressed, as the options say.
+// The picture with its light, noise, blur and compression changed as the options say.
 cv::Mat disturb(const cv::Mat &picture, const TiledOptions &options, std::mt19937 &random);
 
 #endif

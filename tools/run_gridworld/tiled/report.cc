@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "report.h"
 
-#include "rlvc/rlvc.h"
-
-#include <nlohmann/json.hpp>
+#include "../maze/maze_file.h"
+#include "../report/json_values.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr int report_version = 1;
-constexpr const char *action_names[GRIDWORLD_ACTIONS] = {"up", "right", "down", "left"};
-
-double shortest(float value) {
-    char text[32];
-    *std::to_chars(text, text + sizeof text - 1, value).ptr = '\0';
-    return std::strtod(text, nullptr);
-}
 
 std::string percent(double share) {
     char text[32];
@@ -49,30 +34,25 @@ std::string place_text(const Gallery &gallery, const Place *place) {
 }
 
 Json describe_options(const TiledOptions &options) {
-    return {{"images", options.images.empty() ? Json(nullptr) : Json(options.images)},
-            {"maze", options.maze},
-            {"poses", options.poses},
-            {"test_poses", options.test_poses},
-            {"light", shortest(options.light)},
-            {"noise", shortest(options.noise)},
-            {"blur", shortest(options.blur)},
-            {"jpeg", options.jpeg},
-            {"copies", options.copies},
-            {"descriptor", rlvc_descriptor_name(options.descriptor)},
-            {"points", options.points},
-            {"axes", options.axes},
-            {"sigma", shortest(options.sigma)},
-            {"share", shortest(options.share)},
-            {"margin", shortest(options.margin)},
-            {"candidates", options.candidates},
-            {"normalise", options.normalise},
-            {"criterion", options.criterion == RLVC_CRITERION_RETURNS ? "returns" : "residual"},
-            {"interactions", options.interactions},
-            {"steps", options.steps},
-            {"gamma", shortest(options.gamma)},
-            {"epsilon", shortest(options.epsilon)},
-            {"alpha", shortest(options.alpha)},
-            {"seed", options.seed}};
+    Json json{{"images", options.images.empty() ? Json(nullptr) : Json(options.images)},
+              {"maze", options.maze},
+              {"poses", options.poses},
+              {"test_poses", options.test_poses},
+              {"light", shortest(options.light)},
+              {"noise", shortest(options.noise)},
+              {"blur", shortest(options.blur)},
+              {"jpeg", options.jpeg},
+              {"copies", options.copies},
+              {"descriptor", rlvc_descriptor_name(options.descriptor)},
+              {"points", options.points},
+              {"axes", options.axes},
+              {"sigma", shortest(options.sigma)},
+              {"share", shortest(options.share)},
+              {"margin", shortest(options.margin)},
+              {"candidates", options.candidates},
+              {"normalise", options.normalise}};
+    add_learning(json, options);
+    return json;
 }
 
 Json describe_objects(const Gallery &gallery) {
@@ -95,13 +75,12 @@ Json describe_cells(const gridworld_maze &maze, const TiledRun &run) {
     for (uint32_t cell = 0; cell < run.object.size(); cell++) {
         if (maze.cells[cell] == GRIDWORLD_FREE) {
             const CellPolicy &policy = run.policy.cells[cell];
-            cells.push_back(
-                {{"x", cell % maze.width},
-                 {"y", cell / maze.width},
-                 {"object", run.object[cell]},
-                 {"classes", run.classes_of_cell[cell]},
-                 {"action", policy.action ? Json(action_names[*policy.action]) : Json(nullptr)},
-                 {"optimal", policy.optimal}});
+            cells.push_back({{"x", cell % maze.width},
+                             {"y", cell / maze.width},
+                             {"object", run.object[cell]},
+                             {"classes", run.classes_of_cell[cell]},
+                             {"action", action_name(policy.action)},
+                             {"optimal", policy.optimal}});
         }
     }
     return cells;
@@ -162,7 +141,7 @@ std::string describe_classes(const gridworld_maze &maze, const Gallery &gallery,
 }
 
 std::string describe_tests(const Gallery &gallery, const TiledRun &run) {
-    std::string text = "Tests, in the order in which they were found\n";
+    std::string text = "Tests, in the order in which they were made\n";
     for (std::size_t j = 0; j < run.tests.size(); j++) {
         text += padded(std::to_string(j), 5) + "  class " +
                 padded(std::to_string(run.tests[j].split_class), 3) + "  " + run.tests[j].name +
@@ -214,29 +193,26 @@ std::string make_dot(const Gallery &gallery, const TiledRun &run) {
     return dot;
 }
 
-std::string make_tiled_report(const TiledOptions &options, const std::vector<std::string> &rows,
-                              const gridworld_maze &maze, const Gallery &gallery,
-                              const std::vector<TiledRun> &runs) {
+std::string make_tiled_report(const TiledOptions &options, const gridworld_maze &maze,
+                              const Gallery &gallery, const std::vector<TiledRun> &runs) {
     double seen = 0.0, held = 0.0;
     for (const TiledRun &run : runs) {
         seen += run.optimal_seen;
         held += run.optimal_heldout;
     }
     const auto count = static_cast<double>(runs.size());
-    Json json{{"version", report_version},
-              {"kind", "run_gridworld tiled"},
-              {"program", std::string("run_gridworld ") + rlvc_version()},
-              {"options", describe_options(options)},
-              {"maze", rows},
-              {"tau", gallery.tau()},
-              {"features", describe_features(gallery.descriptors())},
-              {"milliseconds_a_picture", gallery.milliseconds()},
-              {"optimal_seen", seen / count},
-              {"optimal_heldout", held / count},
-              {"objects", describe_objects(gallery)},
-              {"runs", Json::array()}};
+    Json json = begin_report("tiled");
+    json["options"] = describe_options(options);
+    json["maze"] = rows_of(maze);
+    json["tau"] = gallery.tau();
+    json["features"] = describe_features(gallery.descriptors());
+    json["milliseconds_a_picture"] = gallery.milliseconds();
+    json["optimal_seen"] = seen / count;
+    json["optimal_heldout"] = held / count;
+    json["objects"] = describe_objects(gallery);
+    json["runs"] = Json::array();
     for (const TiledRun &run : runs) {
         json["runs"].push_back(describe_run(maze, run));
     }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text_of(json);
 }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// SIGINT, SIGTERM and SIGHUP only set a flag. A run checks it between slices of work and throws
+// Interrupted, so that unfinished files are removed. SIGPIPE is ignored: the write fails instead
+// (ReaderGone).
+#ifndef RUN_GRIDWORLD_CLI_INTERRUPT_H
+#define RUN_GRIDWORLD_CLI_INTERRUPT_H
+
+void watch_for_interrupts();
+
+// The signal that came, or 0.
+int interrupt_signal();
+
+#endif

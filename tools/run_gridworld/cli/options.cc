@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "options.h"
+
+#include "failure.h"
+
+#include "rlvc/rlvc.h"
+
+#include <algorithm>
+
+namespace {
+
+// Defaults found by trial.
+//
+// The published criterion asks for the same evidence from every feature. In a small maze without
+// slip the residual criterion learns fast, from the interactions that fit into 36 KiB. Slip needs
+// more samples. In a larger maze the memory must hold all interactions, and all actions are
+// exploring ones: the greedy action of a class that still covers half the maze would only push the
+// walk into a corner. Splits by successors are off there: they take several times as long, and
+// rewards alone separate as much in the end. An incremental solver forgets at its learning rate,
+// so it needs more interactions, and more of them along its policy.
+struct Defaults {
+    Schedule schedule;
+    float alpha;
+    float alpha_known;
+    bool successors;
+    uint32_t capacity; // 0: all interactions
+};
+
+constexpr Defaults returns_defaults{{10000, 20, 0.8f}, 0.05f, 0.0001f, false, 0};
+constexpr Defaults small_defaults{{2500, 25, 0.9f}, 0.01f, 1.0f, true, 1200};
+constexpr Defaults small_incremental_defaults{{20000, 200, 0.3f}, 0.01f, 1.0f, true, 1200};
+constexpr Defaults large_defaults{{0, 60, 1.0f}, 0.01f, 0.00001f, false, 0};
+constexpr uint32_t small_cells = 46;
+constexpr uint32_t large_interactions_a_cell = 320;
+constexpr uint32_t classes_min = 64, classes_max = 65535, capacity_max = 2147483647;
+
+const std::vector<Named> solvers{{"value-iteration", RLVC_SOLVER_VALUE_ITERATION},
+                                 {"policy-iteration", RLVC_SOLVER_POLICY_ITERATION},
+                                 {"q-learning", RLVC_SOLVER_Q_LEARNING},
+                                 {"sarsa", RLVC_SOLVER_SARSA}};
+const std::vector<Named> scores{{"gain", RLVC_SCORE_GAIN}, {"ranks", RLVC_SCORE_RANKS}};
+
+constexpr LearningTexts texts{
+    "returns: interactions of each step; residual: of the whole run",
+    "learning steps; residual: spread evenly over the interactions",
+    "probability of exploring",
+    "bound on the probability of any test if there is nothing to learn",
+    "most classes of the tree (default: 4 for 3 cells, at least 64)",
+    "make N runs with seeds from --seed on, and print a table",
+    "write the tree for Graphviz; not with --runs",
+};
+
+constexpr char defaults_table[] =
+    R"(Defaults                          interactions   steps  epsilon  alpha  alpha-known  successors  capacity
+  returns                         10000 a step   20     0.8      0.05   0.0001       no          of a step
+  residual, small maze            2500           25     0.9      0.01   1            yes         1200
+    with q-learning or sarsa      20000          200    0.3      0.01   1            yes         1200
+  residual, other mazes           320 a cell     60     1        0.01   0.00001      no          all
+    with q-learning or sarsa      320 a cell     60     0.3      0.01   0.00001      no          all
+A small maze has at most 46 free cells, as Sutton's has, and no slip.)";
+
+Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
+    if (options.returns()) {
+        return returns_defaults;
+    }
+    const bool incremental =
+        options.solver == RLVC_SOLVER_Q_LEARNING || options.solver == RLVC_SOLVER_SARSA;
+    if (maze.free_cells <= small_cells && options.slip == 0.0f) {
+        return incremental ? small_incremental_defaults : small_defaults;
+    }
+    Defaults large = large_defaults;
+    large.schedule.interactions = large_interactions_a_cell * maze.free_cells;
+    if (incremental) {
+        large.schedule.epsilon = small_incremental_defaults.schedule.epsilon;
+    }
+    return large;
+}
+
+void add_learning(CLI::App &app, Options &options) {
+    add_learning_options(app, options, texts);
+    add_named(app, "--solver", solvers, options.solver,
+              "value-iteration (default), policy-iteration, q-learning or sarsa");
+    add_named(app, "--score", scores, options.score,
+              "how a feature is tested: gain (default), or ranks, the rank-sum test");
+    app.add_option("--alpha-known", options.alpha_known,
+                   "largest corrected p-value of a bit that the tree tests already")
+        ->type_name("P")
+        ->check(number(0, 1, Interval::open_low));
+    app.add_option_function<std::string>(
+           "--successors",
+           [&options](const std::string &answer) { options.successors = answer == "yes"; },
+           "yes or no: also split a class by what follows an action (residual only)")
+        ->type_name("ANSWER")
+        ->check(one_of({"yes", "no"}));
+    add_whole(app, "--capacity", options.capacity, 1, capacity_max,
+              "most interactions in memory; the oldest are overwritten");
+}
+
+void add_world(CLI::App &app, Options &options) {
+    add_file(app, "--maze", options.maze,
+             "'#' wall, '.' free, '*' exit; at most 256 x 256 (default: Sutton's, 9 x 6)");
+    app.add_option("--slip", options.slip,
+                   "probability that a move goes in another direction (default 0)")
+        ->type_name("P")
+        ->check(number(0, 1));
+    add_whole(app, "--distractors", options.distractors, 0, GRIDWORLD_BITS_MAX,
+              "irrelevant random bits in each percept (default 11)");
+    add_file(app, "--export-c", options.export_c,
+             "write the minimal policy as a C header; not with --runs");
+}
+
+void check_combination(const Options &options) {
+    const NamedFile dot{"--dot", options.dot}, export_c{"--export-c", options.export_c};
+    for (const NamedFile &tree : {dot, export_c}) {
+        if (!tree.file.empty() && options.runs > 0) {
+            throw Failure(tree.option + ": cannot be combined with --runs: it writes the tree of a "
+                                        "single run");
+        }
+    }
+    check_files_differ({{"--json", options.json}, dot, export_c});
+}
+
+// Throws Failure if the percept has no room for so many bits.
+void check_percept(const Options &options, const gridworld_maze &maze) {
+    const uint32_t place = gridworld_bits(&maze, 0);
+    if (gridworld_bits(&maze, options.distractors) > GRIDWORLD_BITS_MAX) {
+        throw Failure("--distractors: at most " + std::to_string(GRIDWORLD_BITS_MAX - place) +
+                      " fit into a percept of this maze");
+    }
+}
+
+template <class T> void set_if_open(T &value, bool open, T by_default) {
+    if (open) {
+        value = by_default;
+    }
+}
+
+} // namespace
+
+bool read_options(int argc, char **argv, Options &options) {
+    CLI::App app("Learns a maze whose cells are seen as bits (the Binary Gridworld, section 6.1), "
+                 "and prints the\nclasses and the policy.",
+                 "run_gridworld binary");
+    add_learning(app, options);
+    add_world(app, options);
+    app.footer(defaults_table);
+    if (!parse(app, argc, argv)) {
+        return false;
+    }
+    check_combination(options);
+    return true;
+}
+
+void settle(Options &options, const gridworld_maze &maze) {
+    check_percept(options, maze);
+    const Defaults defaults = defaults_for(options, maze);
+    settle_schedule(options, defaults.schedule);
+    set_if_open(options.alpha, options.alpha == 0.0f, defaults.alpha);
+    set_if_open(options.alpha_known, options.alpha_known == 0.0f, defaults.alpha_known);
+    // Splits by successors need all bits in one block of columns.
+    const bool fits = gridworld_bits(&maze, options.distractors) <= RLVC_DETECT_FEATURES;
+    set_if_open(options.successors, options.successors < 0, int{defaults.successors && fits});
+    set_if_open(options.classes, options.classes == 0,
+                std::clamp(maze.free_cells / 3 * 4 + 4, classes_min, classes_max));
+    set_if_open(options.capacity, options.capacity == 0,
+                defaults.capacity == 0 ? options.interactions
+                                       : std::min(options.interactions, defaults.capacity));
+}
+
+const char *solver_name(const Options &options) {
+    return name_of(solvers, options.solver);
+}
+
+const char *score_name(const Options &options) {
+    return name_of(scores, options.score);
+}
