@@ -4,46 +4,55 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
+import os
 import sys
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NoReturn
 
 from . import __version__, files
 from .agent.agent import Agent
 from .agent.config import CHOICES
 from .agent.snapshot import read_file
-from .errors import Error
+from .errors import EnvError, Error, RunError
 from .learning.encode import explain
 from .learning.learn import learn
 from .learning.run import Run
 from .logs import learn_from
 
 _PICTURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
+_INTERRUPTED, _CLOSED_PIPE = 130, 141  # exit statuses: 128 and the number of the signal
 _CURVES = ("discount", "epsilon", "alpha", "tolerance")
 
 
-def _whole(text: str) -> int:
-    value = int(text)
-    if value < 1:
-        raise ValueError
-    return value
+class _Parser(argparse.ArgumentParser):
+    """Tells what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"rlvc: {message}; {self.prog} --help tells more\n")
 
 
-_whole.__name__ = "whole number from 1 on"
+def _number(least: int) -> Callable[[str], int]:
+    """Take a whole number from so many on."""
+
+    def taken(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            value = least - 1
+        if value < least:
+            raise argparse.ArgumentTypeError(f"{text!r:.80} is not a whole number from {least} on")
+        return value
+
+    return taken
 
 
-def _seed(text: str) -> int:
-    value = int(text)
-    if value < 0:
-        raise ValueError
-    return value
-
-
-_seed.__name__ = "whole number from 0 on"
+_whole, _seed = _number(1), _number(0)
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="python -m rlvc", description="Learns readable decision trees from rewards alone."
     )
     parser.add_argument("--version", action="version", version=f"rlvc {__version__}")
@@ -69,8 +78,10 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument(
         "--episodes", type=_seed, default=100, help="to play afterwards, with ENV (100)"
     )
-    one.add_argument("--json", metavar="FILE", help="write a report, which 'plot' draws")
-    one.add_argument("--c", metavar="FILE", help="write the policy as a C header")
+    one.add_argument(
+        "--json", metavar="FILE", help="write a report, which 'plot' draws; -: print it"
+    )
+    one.add_argument("--c", metavar="FILE", help="write the policy as a C header; -: print it")
     one.add_argument("--save", metavar="FILE", help="write the agent, which 'show' reads")
     one.add_argument("--quiet", action="store_true", help="no progress bar")
 
@@ -116,7 +127,12 @@ def _environment(name: str) -> Any:
         from . import envs
 
         envs.register()
-    return gymnasium.make(name)
+    try:
+        return gymnasium.make(name)
+    except ImportError:
+        raise
+    except Exception as error:  # of Gymnasium, or of the environment
+        raise EnvError(f"{name}: cannot be made: {error}") from error
 
 
 def _write(file: str, text: str) -> None:
@@ -126,48 +142,56 @@ def _write(file: str, text: str) -> None:
         files.replace(file, text.encode())
 
 
-def _learn(arguments: argparse.Namespace) -> None:
+def _learn(arguments: argparse.Namespace) -> int:
     if (arguments.env is None) == (arguments.log is None):
-        raise Error("learn: either ENV or --log FILE is wanted")
+        raise Error("learn: give either ENV or --log FILE")
     env = None
-    if arguments.env is not None:
-        env = _environment(arguments.env)
-        run = learn(
-            env,
-            arguments.interactions,
-            seed=arguments.seed,
-            progress=not arguments.quiet,
-            **_config(arguments),
-        )
-    else:
-        columns = arguments.columns.split(",") if arguments.columns else None
-        run = learn_from(
-            arguments.log,
-            columns=columns,
-            steps=arguments.steps,
-            seed=arguments.seed,
-            **_config(arguments),
-        )
-    _show(run, env, arguments)
+    try:
+        if arguments.env is not None:
+            env = _environment(arguments.env)
+            run = learn(
+                env,
+                arguments.interactions,
+                seed=arguments.seed,
+                progress=not arguments.quiet,
+                **_config(arguments),
+            )
+        else:
+            columns = arguments.columns.split(",") if arguments.columns else None
+            run = learn_from(
+                arguments.log,
+                columns=columns,
+                steps=arguments.steps,
+                seed=arguments.seed,
+                **_config(arguments),
+            )
+    except Exception as error:
+        if isinstance(getattr(error, "run", None), Run):
+            _keep(error.run, env, arguments)  # type: ignore[attr-defined]
+        raise
+    _keep(run, env, arguments)
+    if run.interrupted:
+        print("rlvc: interrupted: this is what was learnt until then", file=sys.stderr)
+        return _INTERRUPTED
+    if env is not None and arguments.episodes > 0:
+        mean = run.evaluate(env, arguments.episodes, seed=arguments.seed)
+        print(f"mean return of {arguments.episodes} episodes: {mean:.4g}")
+    return 0
 
 
-def _show(run: Run, env: Any, arguments: argparse.Namespace) -> None:
-    print(run.text(), end="")
-    statistics = run.agent.statistics
-    print(f"{statistics.classes} classes after {statistics.interactions} interactions")
+def _keep(run: Run, env: Any, arguments: argparse.Namespace) -> None:
+    """Write what was learnt; first into files, as who reads the text may leave."""
+    if arguments.save:
+        run.agent.save(arguments.save, run.encoder.names if run.encoder else ())
     if arguments.json:
         from . import report
 
         _write(arguments.json, json.dumps(report.make(run, env), indent=1) + "\n")
-    if arguments.save:
-        run.agent.save(arguments.save, run.encoder.names if run.encoder else ())
     if arguments.c:
         _write(arguments.c, (run.small or run.agent).export_c())
-    if run.interrupted:
-        print("interrupted: this is what was learnt until then", file=sys.stderr)
-    elif env is not None and arguments.episodes > 0:
-        mean = run.evaluate(env, arguments.episodes, seed=arguments.seed)
-        print(f"mean return of {arguments.episodes} episodes: {mean:.4g}")
+    print(run.text(), end="")
+    statistics = run.agent.statistics
+    print(f"{statistics.classes} classes after {statistics.interactions} interactions")
 
 
 def _show_agent(file: str) -> None:
@@ -182,7 +206,36 @@ def _show_agent(file: str) -> None:
 def _plot(arguments: argparse.Namespace) -> None:
     from . import plot
 
-    plot.KINDS[arguments.kind](arguments.run, arguments.file)
+    try:
+        plot.KINDS[arguments.kind](arguments.run, arguments.file)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        if isinstance(error, Error):
+            raise
+        raise RunError(f"{arguments.run}: damaged: {error!r:.200}") from error
+
+
+def _run(parsed: argparse.Namespace) -> int:
+    if parsed.command == "learn":
+        return _learn(parsed)
+    if parsed.command == "plot":
+        _plot(parsed)
+    elif parsed.command == "show":
+        _show_agent(parsed.agent)
+    elif parsed.command == "export":
+        _write(parsed.c, Agent.load(parsed.agent).export_c())
+    else:
+        from . import bench
+
+        bench.main()
+    return 0
+
+
+def _told(error: Exception) -> str:
+    """Give an error in one line."""
+    text = " ".join(str(error).split())
+    if isinstance(error, Error | ImportError | OSError):
+        return text
+    return f"the environment raised {type(error).__name__}: {text}"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -196,33 +249,29 @@ def main(arguments: list[str] | None = None) -> int:
     Returns
     -------
     int
-        The exit status: 0, or 1 after an error, which is told in one line.
+        The exit status: 0; 1 after an error, which is told in one line; 130 after Ctrl-C; 141 if nobody
+        reads the output any more.
     """
-    parsed = _parser().parse_args(arguments)
     try:
-        if parsed.command == "learn":
-            _learn(parsed)
-        elif parsed.command == "plot":
-            _plot(parsed)
-        elif parsed.command == "show":
-            _show_agent(parsed.agent)
-        elif parsed.command == "export":
-            _write(parsed.c, Agent.load(parsed.agent).export_c())
-        else:
-            from . import bench
-
-            bench.main()
+        try:
+            return _run(_parser().parse_args(arguments))
+        finally:
+            if sys.stdout is not None:
+                sys.stdout.flush()
     except KeyboardInterrupt:
         print("rlvc: interrupted", file=sys.stderr)
-        return 130
+        return _INTERRUPTED
+    except BrokenPipeError:
+        with contextlib.suppress(
+            OSError
+        ):  # what is left in the buffer must not be written at the end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _CLOSED_PIPE
     except Exception as error:
-        if not isinstance(error, Error | ImportError | OSError) and not type(
-            error
-        ).__module__.startswith("gymnasium"):
+        if not isinstance(error, Error | ImportError | OSError) and not hasattr(error, "run"):
             raise
-        print("rlvc: " + " ".join(str(error).split()), file=sys.stderr)
+        print(f"rlvc: {_told(error)}", file=sys.stderr)
         return 1
-    return 0
 
 
 if __name__ == "__main__":

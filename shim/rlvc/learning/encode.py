@@ -298,6 +298,9 @@ def explain(text: str, names: Sequence[str]) -> str:
     -------
     str
     """
-    return re.sub(
-        r"\bbit (\d+)\b|\bx\[(\d+)\]", lambda match: names[int(match[1] or match[2])], text
-    )
+
+    def name(match: re.Match[str]) -> str:
+        index = int(match[1] or match[2])
+        return names[index] if index < len(names) else match[0]
+
+    return re.sub(r"\bbit (\d+)\b|\bx\[(\d+)\]", name, text)

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: MIT
+"""``python -m rlvc``: what goes wrong is told in one line, and what was learnt is kept."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+import rlvc
+from rlvc import __main__ as command
+
+
+def started(*arguments, cwd=None, **options):
+    names = ("PYTHONPATH", "RLVC_PYTHON_LIBRARY", "PATH", "HOME")
+    return subprocess.Popen(
+        [sys.executable, "-B", "-m", "rlvc", *map(str, arguments)], text=True, cwd=cwd,
+        env={name: os.environ[name] for name in names if name in os.environ},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def saved(walk, tmp_path):
+    agent = walk()
+    agent.learn()
+    agent.save(tmp_path / "agent")
+    return tmp_path / "agent"
+
+
+WRONG = [
+    [], ["fly"], ["learn"], ["learn", "--interactions", "many"], ["learn", "FrozenLake-v1", "--interactions", "0"],
+    ["learn", "FrozenLake-v1", "--seed", "-1"], ["learn", "FrozenLake-v1", "--seed", str(2**70)],
+    ["learn", "FrozenLake-v1", "--discount", "2"], ["learn", "FrozenLake-v1", "--discount", "x"],
+    ["learn", "FrozenLake-v1", "--solver", "guess"], ["learn", "FrozenLake-v1", "--log", "x"],
+    ["learn", "NoSuchLake-v1"], ["learn", ""], ["learn", "no_such_module:Lake-v1"], ["learn", "a b c"],
+    ["learn", "--log", "none.csv"], ["learn", "--log", "none.npz"], ["learn", "--log", "/dev/null"],
+    ["show", "none"], ["show", "/dev/zero"], ["export", "none"], ["export", "none", "--c", "x"],
+    ["plot", "none", "tree", "x.png"], ["plot", "none", "none", "x.png"],
+]  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("arguments", WRONG, ids=" ".join)
+def test_wrong_arguments_are_told_in_one_line(arguments, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    try:
+        status = command.main([*arguments, *(["--quiet"] if "learn" in arguments else [])])
+    except SystemExit as end:
+        status = end.code
+    told = capsys.readouterr()
+    assert status in (1, 2)
+    assert told.out == ""
+    assert told.err.startswith("rlvc: ")
+    assert told.err.count("\n") == 1
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    "report",
+    ["[" * 100_000, "{}", "[]", '{"version": 2}', '{"version": 1, "tree": 5}', '{"version": 1, "runs": 7}',
+     '{"version": 1, "tree": {"nodes": [{}]}}', "\xff", "", "NaN", '{"version": 1, "history": [1]}'],
+    ids=range(11),
+)  # fmt: skip
+@pytest.mark.parametrize("kind", command._PICTURES)
+def test_damaged_reports(report, kind, capsys, tmp_path):
+    (tmp_path / "run.json").write_bytes(report.encode("latin1"))
+    arguments = ["plot", str(tmp_path / "run.json"), kind, str(tmp_path / "a.svg")]
+    assert command.main(arguments) == 1
+    told = capsys.readouterr().err
+    assert told.startswith("rlvc: ")
+    assert told.count("\n") == 1
+
+
+def test_a_pipe_that_is_closed(saved):
+    read, write = os.pipe()
+    os.close(read)
+    for arguments in (["show", saved], ["export", saved, "--c", "-"], ["--help"]):
+        process = started(*arguments)
+        process.stdout.close()
+        _, told = process.communicate()
+        assert told == ""
+        assert process.returncode in (0, 141)
+    os.close(write)
+
+
+def test_what_is_learnt_is_written_though_nobody_reads(tmp_path):
+    log = tmp_path / "log.csv"
+    log.write_text("x,action,reward,terminated\n" + "1,0,0,1\n2,0,1,1\n" * 40, encoding="utf-8")
+    names = [tmp_path / name for name in ("agent", "run.json", "policy.h")]
+    files = zip(("--save", "--json", "--c"), names, strict=True)
+    process = started("learn", "--log", log, *(part for pair in files for part in pair))
+    process.stdout.close()
+    _, told = process.communicate()
+    assert (process.returncode, told) == (141, "")
+    assert rlvc.Agent.load(names[0]).classes == 2
+    assert json.loads(names[1].read_text(encoding="utf-8"))["classes"] == 2
+    assert "policy_act" in names[2].read_text(encoding="utf-8")
+
+
+def test_output_to_a_full_disk(saved):
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run(
+            [sys.executable, "-B", "-m", "rlvc", "show", saved], stdout=full, stderr=subprocess.PIPE,
+            text=True, check=False,
+        )  # fmt: skip
+    assert "No space left" in done.stderr.splitlines()[0]
+    assert done.returncode != 0
+
+
+MODULE = """
+    import os, signal
+    import gymnasium
+    from gymnasium import spaces
+
+    class Lake(gymnasium.Env):
+        observation_space, action_space = spaces.Discrete(4), spaces.Discrete(2)
+        steps = 0
+
+        def reset(self, *, seed=None, options=None):
+            super().reset(seed=seed)
+            self.place, self.left = 0, 5
+            return 0, {}
+
+        def step(self, action):
+            Lake.steps += 1
+            if Lake.steps == 450:
+                FAULT
+            self.place, self.left = (self.place + 2 * action - 1) % 4, self.left - 1
+            return self.place, float(self.place == 2), self.left == 0, False, {}
+
+    gymnasium.register("Lake-v0", Lake)
+"""
+FAULTS = {
+    "os.kill(os.getpid(), signal.SIGINT)": (130, "rlvc: interrupted: this is what was learnt until then\n"),
+    "raise ZeroDivisionError('here')": (1, "rlvc: the environment raised ZeroDivisionError: here\n"),
+    "return 0, None, False, False, {}": (
+        1, "rlvc: interaction 449, episode 89: reward: None is not a number: give a float\n"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_what_was_learnt_is_kept(fault, tmp_path):
+    """Also when Ctrl-C, or the environment, ends it."""
+    (tmp_path / "lake.py").write_text(
+        textwrap.dedent(MODULE).replace("FAULT", fault), encoding="utf-8"
+    )
+    arguments = (
+        "learn",
+        "lake:Lake-v0",
+        "--interactions",
+        1000,
+        "--quiet",
+        "--save",
+        "agent",
+        "--json",
+        "run.json",
+    )
+    process = started(
+        *arguments,
+        cwd=tmp_path,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    out, told = process.communicate()
+    assert (process.returncode, told) == FAULTS[fault]
+    assert "classes after 4" in out
+    assert rlvc.Agent.load(tmp_path / "agent").statistics.interactions in (449, 450)
+    report = json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))
+    assert report["history"][-1]["interactions"] == 400
+
+
+def test_policies_are_printed(saved, capsys):
+    assert command.main(["export", str(saved), "--c", "-"]) == 0
+    assert "policy_act" in capsys.readouterr().out
+
+
+def test_fewer_names_than_bits(walk, tmp_path, capsys):
+    agent = walk()
+    agent.learn()
+    agent.save(tmp_path / "agent", ["low"])
+    assert command.main(["show", str(tmp_path / "agent")]) == 0
+    shown = capsys.readouterr().out
+    assert "low?" in shown
+    assert "bit 2?" in shown
+    for names in (5, "low", [1], None):
+        with pytest.raises(rlvc.errors.ConfigError, match="names"):
+            agent.save(tmp_path / "agent", names)
