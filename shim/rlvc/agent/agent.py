@@ -14,7 +14,7 @@ import numpy.typing as npt
 from .. import _native
 from ..checks import whole
 from ..domains.domain import Domain, Percept
-from ..errors import Error, RangeError, ReenteredError, RewardError, SnapshotError
+from ..errors import Error, PerceptError, RangeError, ReenteredError, RewardError, SnapshotError
 from .batch import Batch, native_log
 from .config import Config
 from .inspect import Queries
@@ -159,7 +159,11 @@ class Agent(Queries):
         """
         if choice is not self._chosen:
             self._choose(choice)
-        packed = None if percept is None else self._pack(percept)
+        packed = None
+        if percept is not None:
+            packed = self._pack(percept)
+        elif not terminated:
+            raise PerceptError("percept: None is only allowed if the episode terminated")
         try:
             status = _observe(
                 self._handle,

@@ -27,7 +27,6 @@ from ..errors import (
     ConfigError,
     Error,
     OrderError,
-    PerceptError,
     RangeError,
     ReenteredError,
     RewardError,
@@ -124,9 +123,7 @@ class Handle:
         if status == _native.E_NULL:
             if getattr(self, "_address", 0) is None:
                 raise ClosedError("the agent is closed")
-            if self._handle is None:
-                raise ReenteredError("the agent is in use: a callback or another thread called it")
-            raise PerceptError("percept: None is only allowed if the episode terminated")
+            raise ReenteredError("the agent is in use: a callback or another thread called it")
         text = _native.status_text(status)
         if index is not None:
             text = f"interaction {index}: {text}"

@@ -119,12 +119,15 @@ def _from_table(
     ends = ends_of(terminated, truncated | last_seen)
     observations = np.stack([table[name] for name in seen], axis=1)
     following = np.minimum(rows + 1, count - 1)  # ignored where terminated
+    with np.errstate(over="ignore", invalid="ignore"):  # what is out of range, checked() refuses
+        actions = table["action"][rows].astype(np.int64)
+        rewards = table["reward"][rows].astype(np.float32)
     return checked(
         Log(
             observations[rows],
             observations[following],
-            table["action"][rows].astype(np.int64),
-            table["reward"][rows].astype(np.float32),
+            actions,
+            rewards,
             ends[rows],
             exploited[rows] if "exploited" in table else None,
             where,

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _native, files
+from ..checks import whole
 from ..errors import (
     Error,
     MetricError,
@@ -112,9 +113,8 @@ class Metric(Owned):
             raise RangeError(f"objects: {len(numbers)} for {len(seen)} pictures")
         for picture, number in zip(seen, numbers, strict=True):
             one = native_picture(picture, order)
-            if not 0 <= int(number) < 2**32:
-                raise RangeError(f"objects: {number!r} is not in [0, 2**32 - 1]")
-            call("rlvc_fitter_add", fitter._handle, ctypes.byref(one), int(number))
+            number = whole("objects", number, 0, 2**32 - 1, RangeError)
+            call("rlvc_fitter_add", fitter._handle, ctypes.byref(one), number)
         for before, after, how in pairs:
             if how not in _PAIRS:
                 raise RangeError(f"pairs: {how!r} is not one of {', '.join(_PAIRS)}")
@@ -168,6 +168,8 @@ class Metric(Owned):
         MetricError
             It is not a metric, or is damaged. The message names the place.
         """
+        if not isinstance(text, bytes | bytearray | memoryview):
+            raise MetricError(f"a metric is bytes, not {type(text).__name__}")
         return cls("rlvc_metric_read", bytes(text), len(text))
 
     def save(self, file: str | Path) -> None:
