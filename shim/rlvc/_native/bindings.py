@@ -175,8 +175,7 @@ class Domain(c.Structure):
         ("ctx", c.c_void_p), ("percept_bytes", c.c_uint32), ("feature_bytes", c.c_uint32),
         ("features_max", c.c_uint32), ("kind", c.c_uint32), ("exhibits", DOMAIN_EXHIBITS),
         ("candidates", DOMAIN_CANDIDATES), ("detect", DOMAIN_DETECT), ("oracle", DOMAIN_ORACLE),
-        ("name", DOMAIN_NAME),
-        ("check_percept", DOMAIN_CHECK_PERCEPT),
+        ("name", DOMAIN_NAME), ("check_percept", DOMAIN_CHECK_PERCEPT),
         ("check_feature", DOMAIN_CHECK_FEATURE),
     ]
 

@@ -27,6 +27,7 @@ from ..errors import (
     ConfigError,
     Error,
     OrderError,
+    PerceptError,
     RangeError,
     ReenteredError,
     RewardError,
