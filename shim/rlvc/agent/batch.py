@@ -104,7 +104,7 @@ class Batch:
     :meth:`act`, step the environments, write ``rewards``, ``next_percepts`` and ``ends``, call
     :meth:`observe`. Write into the arrays, as in ``batch.rewards[...] = rewards``: they cannot be
     replaced. From 64 environments on, a step costs less than a tenth of the same number of calls of
-    ``act`` and ``observe`` (``tools/bench/shim.py`` measures it).
+    ``act`` and ``observe`` (``tools/bench/micro/shim.py`` measures it).
 
     Parameters
     ----------

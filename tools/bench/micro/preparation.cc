@@ -3,7 +3,7 @@
 // features in that order; and all of it together.
 //
 //     sort/<N>, detect/<N>/<F>, whole/<N>/<F>
-#include "stages.h"
+#include "search_stages.h"
 
 #include <benchmark/benchmark.h>
 

@@ -3,7 +3,7 @@
 #ifndef RLVC_BENCH_SWEEP_H
 #define RLVC_BENCH_SWEEP_H
 
-#include "stages.h"
+#include "search_stages.h"
 
 namespace bench {
 

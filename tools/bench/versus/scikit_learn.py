@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Compares the search for a split with scikit-learn's exact one, in one run on one thread.
 
-    versus_sklearn.py BUILD/tools/bench/bench_search [--samples N] [--bits F] [--repeats R]
+    scikit_learn.py BUILD/tools/bench/bench_search [--samples N] [--bits F] [--repeats R]
 
-scikit-learn has no search over (feature, cutpoint of the target) as such; the same answer comes
-from one fit a feature, with the target as the only column and the feature's bit as the label: a
-tree of depth 1 by entropy, which splits at the cutpoint of the highest information gain. Ours is
-timed from unsorted samples on: sorting, detecting and searching. Both must find the same. Times are
-of the processor, so that whatever else runs on the machine does not count.
+scikit-learn has no search over (feature, cutpoint of the target). One fit for each feature gives the
+same answer: a tree of depth 1 by entropy, with the target as the only column and the feature's bit as
+the label, splits at the cutpoint of the highest information gain. Our time includes sorting the samples,
+detecting features and searching. Both must find the same split. Times are processor times.
 """
 import argparse
 import json
@@ -73,7 +72,7 @@ def by_rlvc(program, target, percept, bits, repeats):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program", help="the bench_search that was built")
+    parser.add_argument("program", help="the program bench_search")
     parser.add_argument("--samples", type=int, default=1000000)
     parser.add_argument("--bits", type=int, default=18, help="features, 1 to 32")
     parser.add_argument("--repeats", type=int, default=3, help="of scikit-learn; ours has 5 times")

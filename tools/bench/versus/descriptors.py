@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Compares descriptors and rules on photographs: the table of the vision module's design page.
 
-    RLVC_COIL100=DIR tools/bench/tiled_table.py PATH/TO/run_gridworld [--runs N]
+    RLVC_COIL100=DIR tools/bench/versus/descriptors.py PATH/TO/run_gridworld [--runs N]
 
-Sutton's maze, an object a cell, noise 3, light +-5 %, 4,500 interactions. Each row is learnt twice: from
-poses 0 and +-20 degrees with +-10 held out, and from 0, +-10 and +-20 with +-30 held out. Shares are
-of decisions that are optimal, means over the runs; classes are the mean and the most; seconds are of the
-processor, a run, for learning alone. Prints Markdown."""
+Sutton's maze with an object in each cell, noise 3, light +-5 %, 4,500 interactions. Each row is learnt
+twice: from poses 0 and +-20 degrees with +-10 held out, and from 0, +-10 and +-20 with +-30 held out. A
+share is that of optimal decisions, the mean over the runs. Classes are the mean and the maximum. Seconds
+are processor time of learning in one run. Prints Markdown."""
 
 import argparse
 import json
@@ -53,7 +53,7 @@ def main():
     options = parser.parse_args()
     folder = os.environ.get("RLVC_COIL100")
     if not folder:
-        sys.exit("tiled_table.py: RLVC_COIL100 must name a folder of COIL-100 pictures")
+        sys.exit("descriptors.py: RLVC_COIL100 must name a folder of COIL-100 pictures")
     print("| vectors, rule | seen | +-10 | classes | s | seen | +-30 | classes | s |")
     print("|---|---|---|---|---|---|---|---|---|")
     for name, arguments in ROWS:

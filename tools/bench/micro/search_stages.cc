@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "stages.h"
+#include "search_stages.h"
 
 #include <algorithm>
 

@@ -2,17 +2,17 @@
 # SPDX-License-Identifier: MIT
 """Compares learning the Tiled Gridworld with a plain numpy version of it, in one run on one thread.
 
-    versus_numpy.py PATH/TO/run_gridworld [--seed S] [-- OPTIONS OF run_gridworld tiled]
+    plain_numpy.py PATH/TO/run_gridworld [--seed S] [-- OPTIONS OF run_gridworld tiled]
 
-run_gridworld learns and writes a snapshot; numpy reads the interactions in it and learns from them again, in
-as many steps: the same candidates, the same radii by the margin rule, the same scores and corrected
-p-values, by arrays over all features and samples of a class. Its distances are |a|^2 + |b|^2 - 2 a b by
-matrix products (BLAS), or, with --by-difference, sums of squared differences, a feature at a time. Neither
-extracts vectors from pictures in the time that is shown, which is the processor's.
+run_gridworld learns and writes a snapshot. numpy reads the interactions from it and learns from them again, in
+the same number of steps, with the same candidates, radii (margin rule), scores and corrected p-values, by
+arrays over all features and samples of a class. Its distances are |a|^2 + |b|^2 - 2 a b by matrix products
+(BLAS), or, with --by-difference, sums of squared differences for one feature at a time. The times are
+processor times and do not include making vectors of pictures.
 
-Values are solved within a tolerance, so that targets differ in their last digits: which of the samples with
-nearly equal targets is drawn may differ then, and with it the tree. What is compared is how many classes
-there are, and for how many of the percepts seen both trees know the same value, within 1.
+Values are solved within a tolerance, so targets differ in their last digits. Which of several samples with
+nearly equal targets is drawn may then differ, and with it the tree. Compared are the number of classes and
+the share of percepts for which both trees give the same value, within 1.
 """
 import argparse
 import json
@@ -159,9 +159,7 @@ class Learner:
         slots, keys = (np.concatenate(part) for part in zip(*groups))
         if len(slots) < self.s.min_samples:
             return None
-        ends = np.cumsum([len(group[0]) for group in groups])
-        parts = [(end - len(group[0]), end, cuts) for group, end in zip(groups, ends)
-                 if len(group[0]) for cuts in [self.cutpoints(group[1])] if len(cuts)]
+        parts = self.parts(groups)
         if sum(end - begin for begin, end, _ in parts) < self.s.min_samples:
             return None
         found = self.propose(slots, keys)
@@ -170,6 +168,17 @@ class Learner:
         features, radii = np.stack([f for f, _ in found]), np.array([r for _, r in found])
         present = self.nearest(slots, features) <= radii * radii
         return self.weigh(parts, present, features, radii)
+
+    def parts(self, groups):
+        """Where the samples of each action begin and end, and their cutpoints, if there are any."""
+        parts, begin = [], 0
+        for slots, targets in groups:
+            end = begin + len(slots)
+            cuts = self.cutpoints(targets) if len(slots) else []
+            if len(cuts):
+                parts.append((begin, end, cuts))
+            begin = end
+        return parts
 
     def weigh(self, parts, present, features, radii):
         f = np.arange(present.shape[1])
@@ -321,7 +330,7 @@ def main():
             data = file.read()
     features, run = report["features"], report["runs"][0]
     if features["form"] != "int8" or features["margin"] <= 1:
-        sys.exit("versus_numpy.py: only for int8 vectors and the margin rule")
+        sys.exit("plain_numpy.py: only for int8 vectors and the margin rule")
     snapshot = Snapshot(data, features["dimensions"])
     interactions, steps = run["interactions"], report["options"]["steps"]
     start = time.process_time()

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Compares the exported policy of the Binary Gridworld with what emlearn and m2cgen make of the same tree.
 
-    versus_export.py RUN_GRIDWORLD
+    export.py RUN_GRIDWORLD
 
-Learns the maze with run_gridworld, builds scikit-learn's form of the very tree that it exports, which is as small
-as can be, exports that with emlearn (inline, int16_t) and m2cgen, compiles everything alike for a Cortex-M0 with -Os, and runs it on one under QEMU (the board microbit), which counts instructions. emlearn's is its tree
-function alone, without the vote among trees; the others get their features unpacked from the bits beforehand,
-while ours reads the percept as it is. All must act as that tree does.
+Learns the maze with run_gridworld and builds the exported minimal policy as a tree of scikit-learn. Exports
+that with emlearn (inline, int16_t) and m2cgen, compiles all three for a Cortex-M0 with -Os, and counts
+instructions under QEMU (board microbit). Of emlearn only the tree function is measured, without the vote
+among trees. Both others get their features unpacked from the bits beforehand; ours reads the percept as it
+is. All must act as the tree does.
 
 Needs the Python packages emlearn, m2cgen and scikit-learn, and Debian's gcc-arm-none-eabi,
 picolibc-arm-none-eabi and qemu-system-arm.

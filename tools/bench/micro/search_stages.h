@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The stages of a search for the best split of a class (section 4.2.3), one after the other.
-#ifndef RLVC_BENCH_STAGES_H
-#define RLVC_BENCH_STAGES_H
+#ifndef RLVC_BENCH_SEARCH_STAGES_H
+#define RLVC_BENCH_SEARCH_STAGES_H
 
 #include "core.h"
 #include "data.h"

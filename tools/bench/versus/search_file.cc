@@ -3,7 +3,7 @@
 // feature and cutpoint. FILE holds samples of a target (float32) and a percept (uint32, its lowest
 // BITS bits are the features, the low byte first). Prints one JSON object: the median of the
 // repeats in seconds of the processor, and the split.
-#include "stages.h"
+#include "../micro/search_stages.h"
 
 #include <algorithm>
 #include <cstdio>
