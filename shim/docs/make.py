@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes what the documentation needs besides its own pages: the pictures, and the page of C.
+"""Makes the parts of the documentation that are generated: the pictures, and the page of C.
 
     make.py FOLDER
 
@@ -42,7 +42,7 @@ def pages(folder):
 
 def c_page(folder):
     parts = [
-        "# C\n\nThe headers are the reference: each function says what it answers and what it costs.\n"
+        "# C\n\nThe headers are the reference.\n"
     ]
     headers = [*sorted((ROOT / "core/include/rlvc").glob("*.h")), ROOT / "vision/include/rlvc/vision.h"]
     for header in headers:
@@ -91,8 +91,8 @@ def draw_returns(rows, bit, file):
     bins = np.linspace(-5, 105, 12)
     axes.hist(values, bins=bins, color=[GREY, BLUE], label=["bit 3 absent", "bit 3 present"])
     axes.set_yscale("log")
-    axes.set_ylim(bottom=0.8)  # a single one is to be seen
-    axes.set_xlabel("what moving up earned in class 0, in units of reward")
+    axes.set_ylim(bottom=0.8)  # a single interaction is visible
+    axes.set_xlabel("reward of moving up in class 0")
     axes.set_ylabel("interactions")
     axes.legend(frameon=False)
     tidy(axes, grid="y")
@@ -127,8 +127,8 @@ def draw_gains(found, file):
     for bit in range(4, 15):
         bars[bit].set_hatch("///")
     axes.set_xticks(range(18))
-    axes.set_xlabel("bit (hatched: noise)")
-    axes.set_ylabel("gain, in thousandths of a bit")
+    axes.set_xlabel("bit (hatched: irrelevant)")
+    axes.set_ylabel("gain (thousandths of a bit)")
     tidy(axes, grid="y")
     save(figure, file)
 

@@ -14,6 +14,7 @@ from typing import Any, NoReturn
 from . import __version__, files
 from .agent.agent import Agent
 from .agent.config import CHOICES
+from .agent.results import Statistics
 from .agent.snapshot import read_file
 from .errors import EnvError, Error, RunError
 from .learning.encode import explain
@@ -21,20 +22,25 @@ from .learning.learn import learn
 from .learning.run import Run
 from .logs import learn_from
 
-_PICTURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
+_FIGURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
 _INTERRUPTED, _CLOSED_PIPE = 130, 141  # exit statuses: 128 and the number of the signal
-_CURVES = ("discount", "epsilon", "alpha", "tolerance")
+_NUMBERS = {
+    "discount": "discount factor, in [0, 1]",
+    "epsilon": "probability of exploring, in [0, 1]",
+    "alpha": "significance level of splits, in (0, 1]",
+    "tolerance": "accuracy of values, in units of reward",
+}
 
 
 class _Parser(argparse.ArgumentParser):
-    """Tells what is wrong in one line."""
+    """Prints an error on one line."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"rlvc: {message}; {self.prog} --help tells more\n")
 
 
 def _number(least: int) -> Callable[[str], int]:
-    """Take a whole number from so many on."""
+    """Make the type of integers that are at least `least`."""
 
     def taken(text: str) -> int:
         try:
@@ -42,7 +48,7 @@ def _number(least: int) -> Callable[[str], int]:
         except ValueError:
             value = least - 1
         if value < least:
-            raise argparse.ArgumentTypeError(f"{text!r:.80} is not a whole number from {least} on")
+            raise argparse.ArgumentTypeError(f"{text!r:.80} is not an integer of at least {least}")
         return value
 
     return taken
@@ -51,70 +57,73 @@ def _number(least: int) -> Callable[[str], int]:
 _whole, _seed = _number(1), _number(0)
 
 
+def _add_learn(commands: Any) -> None:
+    learn = commands.add_parser(
+        "learn",
+        help="learn from an environment or a log",
+        description="Learns from a Gymnasium environment or from a log, and prints the tree.",
+    )
+    add = learn.add_argument
+    add("env", nargs="?", metavar="ENV", help="environment, such as FrozenLake-v1 or MODULE:ID")
+    add("--log", metavar="FILE", help="NPZ, CSV or controller log, or name of a Minari data set")
+    add("--interactions", type=_whole, metavar="N", default=10_000,
+        help="number of interactions with ENV (default: %(default)s)")  # fmt: skip
+    add("--seed", type=_seed, metavar="N", default=1,
+        help="seed of all random numbers (default: %(default)s)")  # fmt: skip
+    add("--columns", metavar="A,B,...", help="columns of a CSV that form the observation")
+    add("--steps", type=_whole, metavar="N", default=1,
+        help="number of learning steps with --log (default: %(default)s)")  # fmt: skip
+    add("--episodes", type=_seed, metavar="N", default=100,
+        help="number of episodes to play after learning (default: %(default)s)")  # fmt: skip
+    add("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
+    add("--c", metavar="FILE", help="write the policy as a C header; -: print it")
+    add("--save", metavar="FILE", help="write the agent for 'show' and 'export'")
+    add("--quiet", action="store_true", help="show no progress bar")
+    config = learn.add_argument_group("config of the agent", "rlvc.Config documents these.")
+    for name in _NUMBERS:
+        config.add_argument(f"--{name}", type=float, metavar="X", help=_NUMBERS[name])
+    for name, values in CHOICES.items():
+        config.add_argument(f"--{name}", choices=values)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
-        prog="python -m rlvc", description="Learns readable decision trees from rewards alone."
+        prog="python -m rlvc", description="Learns small, readable decision trees from rewards."
     )
     parser.add_argument("--version", action="version", version=f"rlvc {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_learn(commands)
 
-    one = commands.add_parser(
-        "learn",
-        help="learn from an environment or from a log",
-        description="Learns from a Gymnasium environment, or from a log, and prints the tree.",
-    )
-    one.add_argument("env", nargs="?", metavar="ENV", help="such as FrozenLake-v1, or MODULE:ID")
-    one.add_argument(
-        "--log", metavar="FILE", help="an NPZ or CSV file, or a Minari data set's name"
-    )
-    one.add_argument("--interactions", type=_whole, default=10_000, help="with ENV (10000)")
-    one.add_argument("--seed", type=_seed, default=1, help="of everything random (1)")
-    one.add_argument("--columns", metavar="A,B,...", help="of a CSV's observation")
-    for name in _CURVES:
-        one.add_argument(f"--{name}", type=float, help="see rlvc.Config")
-    for name, values in CHOICES.items():
-        one.add_argument(f"--{name}", choices=values, help="see rlvc.Config")
-    one.add_argument("--steps", type=_whole, default=1, help="learning steps, with --log (1)")
-    one.add_argument(
-        "--episodes", type=_seed, default=100, help="to play afterwards, with ENV (100)"
-    )
-    one.add_argument(
-        "--json", metavar="FILE", help="write a report, which 'plot' draws; -: print it"
-    )
-    one.add_argument("--c", metavar="FILE", help="write the policy as a C header; -: print it")
-    one.add_argument("--save", metavar="FILE", help="write the agent, which 'show' reads")
-    one.add_argument("--quiet", action="store_true", help="no progress bar")
-
-    two = commands.add_parser(
+    plot = commands.add_parser(
         "plot",
-        help="draw a run",
-        description="Draws a report that 'learn --json' or run_gridworld --json wrote.",
+        help="draw a report",
+        description="Draws a report of 'learn --json' or of run_gridworld --json.",
     )
-    two.add_argument("run", metavar="RUN.json")
-    two.add_argument("kind", choices=_PICTURES)
-    two.add_argument("file", metavar="FILE", help="a .png or a .svg")
+    plot.add_argument("run", metavar="RUN.json")
+    plot.add_argument("kind", choices=_FIGURES)
+    plot.add_argument("file", metavar="FILE", help="a .png or a .svg")
 
-    three = commands.add_parser(
-        "show", help="print an agent", description="Prints the tree of an agent that was saved."
+    show = commands.add_parser(
+        "show", help="print an agent", description="Prints the tree of a saved agent."
     )
-    three.add_argument("agent", metavar="AGENT")
+    show.add_argument("agent", metavar="AGENT")
 
-    four = commands.add_parser(
+    export = commands.add_parser(
         "export",
-        help="write an agent's policy as C",
-        description="Writes the policy of an agent that was saved as a C header.",
+        help="write the policy of an agent as C",
+        description="Writes the policy of a saved agent as a C header.",
     )
-    four.add_argument("agent", metavar="AGENT")
-    four.add_argument("--c", metavar="FILE", required=True)
+    export.add_argument("agent", metavar="AGENT")
+    export.add_argument("--c", metavar="FILE", required=True, help="the header")
 
     commands.add_parser(
-        "bench", help="time the package's calls", description="Times the package's calls."
+        "bench", help="time the package", description="Measures the time of the package's calls."
     )
     return parser
 
 
 def _config(arguments: argparse.Namespace) -> dict[str, Any]:
-    chosen = {name: getattr(arguments, name) for name in (*_CURVES, *CHOICES)}
+    chosen = {name: getattr(arguments, name) for name in (*_NUMBERS, *CHOICES)}
     return {name: value for name, value in chosen.items() if value is not None}
 
 
@@ -171,7 +180,7 @@ def _learn(arguments: argparse.Namespace) -> int:
         raise
     _keep(run, env, arguments)
     if run.interrupted:
-        print("rlvc: interrupted: this is what was learnt until then", file=sys.stderr)
+        print("rlvc: interrupted: the result is incomplete", file=sys.stderr)
         return _INTERRUPTED
     if env is not None and arguments.episodes > 0:
         mean = run.evaluate(env, arguments.episodes, seed=arguments.seed)
@@ -179,8 +188,14 @@ def _learn(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _summary(statistics: Statistics) -> str:
+    """The number of classes and interactions of an agent."""
+    classes = "1 class" if statistics.classes == 1 else f"{statistics.classes} classes"
+    return f"{classes} after {statistics.interactions} interactions"
+
+
 def _keep(run: Run, env: Any, arguments: argparse.Namespace) -> None:
-    """Write what was learnt; first into files, as who reads the text may leave."""
+    """Write the result: files first, as the reader of the text may close the output."""
     if arguments.save:
         run.agent.save(arguments.save, run.encoder.names if run.encoder else ())
     if arguments.json:
@@ -191,7 +206,7 @@ def _keep(run: Run, env: Any, arguments: argparse.Namespace) -> None:
         _write(arguments.c, (run.small or run.agent).export_c())
     print(run.text(), end="")
     statistics = run.agent.statistics
-    print(f"{statistics.classes} classes after {statistics.interactions} interactions")
+    print(_summary(statistics))
 
 
 def _show_agent(file: str) -> None:
@@ -200,7 +215,7 @@ def _show_agent(file: str) -> None:
     text = agent.print("text")
     print(explain(text, names) if names else text, end="")
     statistics = agent.statistics
-    print(f"{statistics.classes} classes after {statistics.interactions} interactions")
+    print(_summary(statistics))
 
 
 def _plot(arguments: argparse.Namespace) -> None:
@@ -244,13 +259,13 @@ def main(arguments: list[str] | None = None) -> int:
     Parameters
     ----------
     arguments : list of str or None
-        None: those of the process.
+        None: the arguments of the process.
 
     Returns
     -------
     int
-        The exit status: 0; 1 after an error, which is told in one line; 130 after Ctrl-C; 141 if nobody
-        reads the output any more.
+        The exit status: 0; 1 after an error, which is printed on one line; 130 after Ctrl-C; 141 if
+        the reader closed the output.
     """
     try:
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Numbers that a caller gives: numpy's are as good as Python's, and anything else is refused by name."""
+"""Checks of the caller's numbers: accepts those of Python and numpy; errors name the argument."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from .errors import ConfigError, Error
 
 
 def whole(name: str, value: Any, least: int, most: int, error: type[Error] = ConfigError) -> int:
-    """Take a whole number.
+    """Check an integer.
 
     Parameters
     ----------
     name : str
-        What to call it in the error.
+        Its name in the error.
     value : int, or integer of numpy
     least, most : int
         Its range.
     error : type
-        What to raise.
+        The exception to raise.
 
     Returns
     -------
@@ -38,15 +38,15 @@ def whole(name: str, value: Any, least: int, most: int, error: type[Error] = Con
 
 
 def real(name: str, value: Any, error: type[Error] = ConfigError) -> float:
-    """Take a finite number: a float, an int, a bool, or an array of one such.
+    """Check a finite number: a float, an int, a bool, or an array of one of them.
 
     Parameters
     ----------
     name : str
-        What to call it in the error.
+        Its name in the error.
     value : number
     error : type
-        What to raise.
+        The exception to raise.
 
     Returns
     -------
@@ -64,15 +64,15 @@ def real(name: str, value: Any, error: type[Error] = ConfigError) -> float:
 
 
 def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
-    """Take a truth value: a bool, 0 or 1, or an array of one such.
+    """Check a truth value: a bool, 0 or 1, or an array of one of them.
 
     Parameters
     ----------
     name : str
-        What to call it in the error.
+        Its name in the error.
     value : bool or number
     error : type
-        What to raise.
+        The exception to raise.
 
     Returns
     -------

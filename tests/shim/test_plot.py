@@ -34,7 +34,7 @@ def made(run, env):
 
 
 def test_the_command_knows_every_picture():
-    assert tuple(plot.KINDS) == command._PICTURES
+    assert tuple(plot.KINDS) == command._FIGURES
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The smallest decision tree that does what is allowed."""
+"""The decision tree with the fewest leaves for a table of allowed actions."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ _byref = ctypes.byref
 
 
 class MinTree(NamedTuple):
-    """A tree of the fewest leaves.
+    """A decision tree with the minimum number of leaves.
 
     Attributes
     ----------
     leaves : int
     exact : bool
-        Whether no tree has fewer; if not, table or effort did not suffice to know it.
+        Whether the minimum is proven: ``entries`` and ``effort`` were sufficient.
     splits : ndarray of uint32, [leaves - 1, 2]
-        Leaf and feature: split j leaves the rows without the feature in that leaf, and gives those
-        with it the new leaf j + 1.
+        Leaf and feature of each split. Split j keeps rows without the feature in the leaf, and
+        moves rows with it to the new leaf j + 1.
     actions : ndarray of uint8, [leaves]
     """
 
@@ -43,18 +43,18 @@ def min_tree(
     entries: int = 1 << 20,
     effort: int = 1 << 30,
 ) -> MinTree:
-    """Find the binary tree of the fewest leaves in which every row ends where an allowed action is done.
+    """Find the binary tree with the fewest leaves that gives every row an allowed action.
 
     Parameters
     ----------
     rows : ndarray of bool, [n, features]
-        Which features each row exhibits.
+        The features of each row.
     allowed : ndarray of bool, [n, actions]
-        Which actions each row allows: at least one. At most 64 actions.
+        The allowed actions of each row: at least one. At most 64 actions.
     entries : int
-        Of the table in which subsets of rows are kept, [2, 2**28].
+        Size of the table of subsets of rows, [2, 2**28].
     effort : int
-        Words that may be looked at, about, [1, 2**39].
+        Approximate limit of the work, in machine words read, [1, 2**39].
 
     Returns
     -------
@@ -63,21 +63,22 @@ def min_tree(
     Raises
     ------
     ArrayError
-        An array is of the wrong dtype or shape.
+        An array has the wrong dtype or shape.
     RangeError
-        A number is out of range, a row allows nothing, or two rows that are alike in every feature
-        allow no common action.
+        A number is out of range, a row allows no action, or two rows with the same features allow
+        no common action.
     BlockError
-        There is no memory for it.
+        There is not enough memory.
 
     Notes
     -----
-    What a policy could be at best, when it is known what is optimal in each state: for what an
-    agent has learnt, see :meth:`rlvc.Agent.compact`. Source: ``core/include/rlvc/min_tree.h``.
+    This is a lower bound for the size of a policy, if the optimal actions of all states are known.
+    For the policy of an agent see :meth:`rlvc.Agent.compact`. Source:
+    ``core/include/rlvc/min_tree.h``.
 
     Examples
     --------
-    Action 1 is needed where both features are there:
+    Action 1 is needed if both features are present:
 
     >>> both = np.array([[0, 0], [0, 1], [1, 0], [1, 1]], bool)
     >>> min_tree(both, np.array([[1, 0], [1, 0], [1, 0], [0, 1]], bool)).leaves
@@ -86,9 +87,9 @@ def min_tree(
     rows, allowed = np.asarray(rows), np.asarray(allowed)
     for name, array in (("rows", rows), ("allowed", allowed)):
         if array.dtype != np.bool_ or array.ndim != 2 or len(array) != len(rows):
-            raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, not bool[n, ...]")
+            raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, expected bool[n, ...]")
     if allowed.shape[1] > 64:
-        raise RangeError(f"allowed: {allowed.shape[1]} actions, not 64 at most")
+        raise RangeError(f"allowed: {allowed.shape[1]} actions, more than 64")
     entries = whole("entries", entries, 1, 2**28, RangeError)
     effort = whole("effort", effort, 1, 2**39, RangeError)
     words, sets = _packed(rows), _packed(allowed)
@@ -99,13 +100,13 @@ def min_tree(
         try:
             block = np.empty(size.value // 8 + 1, np.uint64)
         except (MemoryError, ValueError):
-            raise BlockError(f"no memory for a block of {size.value} bytes") from None
+            raise BlockError(f"not enough memory for {size.value} bytes") from None
         place = (block.ctypes.data, size.value)
         status = _native.long_call.rlvc_min_tree(_byref(task), *place, _byref(tree))
     if status != _native.OK:
         raise RangeError(
-            "rows and entries are at least 1 and 2, every row allows an action, "
-            "and rows alike in every feature a common one"
+            "rows must be at least 1, entries at least 2, every row must allow an action, and rows with "
+            "the same features a common action"
         )
     splits = np.zeros((tree.leaves - 1, 2), np.uint32)
     ctypes.memmove(splits.ctypes.data, tree.split, splits.nbytes)
@@ -115,7 +116,7 @@ def min_tree(
 
 
 def _packed(bits: npt.NDArray[np.bool_]) -> npt.NDArray[np.uint64]:
-    """Rows of bits as words, the lowest bit first."""
+    """Pack rows of bits into words, lowest bit first."""
     words = max(1, (bits.shape[1] + 63) // 64)
     padded = np.zeros((len(bits), 64 * words), np.bool_)
     padded[:, : bits.shape[1]] = bits

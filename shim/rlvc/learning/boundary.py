@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What an environment returns, checked in one place.
+"""Checks of the values that an environment returns.
 
-Numbers of numpy, arrays of one element, and 0 or 1 as a flag are taken as what they are meant to be.
-Anything else is refused by an error that says what the environment should return.
+numpy's numbers, arrays of one element, and 0 or 1 as a flag are accepted. For other values the
+error says what the environment should return.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def check(env: Any) -> None:
     env : object
     """
     if isinstance(env, str):
-        raise EnvError(f"env: {env!r} is a name: give gymnasium.make({env!r})")
+        raise EnvError(f"env: {env!r} is a name: pass gymnasium.make({env!r})")
     for name in ("reset", "step", "action_space", "observation_space"):
         if not hasattr(env, name):
             raise EnvError(f"env: {type(env).__name__} is not an environment: it has no {name}")
@@ -93,7 +93,7 @@ def step(env: Any, action: int) -> tuple[Any, float, bool, bool]:
     Returns
     -------
     observation, float, bool, bool
-        What was reached, the reward, whether it was terminated and truncated.
+        The next observation, the reward, terminated, truncated.
     """
     observation, reward, terminated, truncated, _ = _five(env.step(action))
     return (
@@ -115,7 +115,7 @@ def step_all(env: Any, chosen: npt.NDArray[np.int64]) -> tuple[Any, Any, Any, An
     Returns
     -------
     observations, float64 [n], bool [n], bool [n], dict
-        What was reached, the rewards, which were terminated and truncated, and the info.
+        The next observations, the rewards, terminated, truncated, and the info.
     """
     observations, rewards, terminated, truncated, info = _five(env.step(chosen))
 

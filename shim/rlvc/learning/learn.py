@@ -187,13 +187,13 @@ def learn(
         A field of the config, ``interactions``, ``every`` or ``leaves`` is out of range.
 
     EnvError, RewardError, PerceptError
-        The environment returned a value that Gymnasium's interface does not allow. The message names the
-        interaction, the episode and the value.
+        The environment returned a value that Gymnasium's interface does not allow. The message
+        names the interaction, the episode and the value.
 
     Notes
     -----
-    Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True. Any exception, also of
-    the environment, the encoder or the callback, has the run so far in its attribute ``run``.
+    Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True. Any exception, also
+    of the environment, the encoder or the callback, has the run so far in its attribute ``run``.
     """
     interactions = whole("interactions", interactions, 1, 2**53)
     every = max(100, interactions // 100) if every is None else whole("every", every, 1, 2**53)
