@@ -65,7 +65,7 @@ def test_wrong_arguments_are_told_in_one_line(arguments, capsys, monkeypatch, tm
      '{"version": 1, "tree": {"nodes": [{}]}}', "\xff", "", "NaN", '{"version": 1, "history": [1]}'],
     ids=range(11),
 )  # fmt: skip
-@pytest.mark.parametrize("kind", command._PICTURES)
+@pytest.mark.parametrize("kind", command._FIGURES)
 def test_damaged_reports(report, kind, capsys, tmp_path):
     (tmp_path / "run.json").write_bytes(report.encode("latin1"))
     arguments = ["plot", str(tmp_path / "run.json"), kind, str(tmp_path / "a.svg")]
