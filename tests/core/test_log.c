@@ -183,6 +183,16 @@ static void test_golden(void **state) {
 
 /* ------------------------------------------------------------------ damage */
 
+/* May a record that was read be this one that was written? s' of an interaction may have become the
+ * beginning of an episode. */
+static int may_be(const rlvc_log_record *record, const item *it) {
+    if (record->kind == RLVC_LOG_BEGIN)
+        return it->end != RLVC_TERMINATED && record->percept &&
+               memcmp(record->percept, it->percept, PERCEPT) == 0;
+    return it->kind == RLVC_LOG_OBSERVE && record->end == it->end &&
+           memcmp(&record->reward, &it->reward, sizeof it->reward) == 0;
+}
+
 /* Reads all there is and fails unless it is a part of what was written, in order, and could be
  * played. Returns how many records came as they were written. */
 static uint32_t read_what_is_left(void) {
@@ -196,17 +206,8 @@ static uint32_t read_what_is_left(void) {
         if (record.kind == RLVC_LOG_HEADER)
             continue;
         assert_true(record.kind == RLVC_LOG_BEGIN || open);
-        /* s' of an interaction may have become the beginning of an episode. */
-        for (; i < RECORDS; i++) {
-            const item *it = &written[i];
-            int percept = it->end != RLVC_TERMINATED && record.percept &&
-                          memcmp(record.percept, it->percept, PERCEPT) == 0;
-            if (record.kind == RLVC_LOG_BEGIN
-                    ? percept
-                    : it->kind == RLVC_LOG_OBSERVE && record.end == it->end &&
-                          memcmp(&record.reward, &it->reward, sizeof it->reward) == 0)
-                break;
-        }
+        while (i < RECORDS && !may_be(&record, &written[i]))
+            i++;
         assert_true(i < RECORDS);
         whole += record.kind == written[i].kind;
         open = record.kind == RLVC_LOG_BEGIN || record.end == RLVC_GOES_ON;

@@ -46,6 +46,29 @@ static void make_records(const uint8_t *data, size_t size) {
     }
 }
 
+/* The first byte chooses the size of the pieces and whether records are made of the rest. */
+static void fill_tape(const uint8_t *data, size_t size) {
+    length = 0;
+    at = 0;
+    piece = 1u + data[0] % 32u;
+    if (data[0] >> 6 & 1) {
+        make_records(data + 1, size - 1);
+    } else {
+        length = (uint32_t)size - 1u;
+        memcpy(tape, data + 1, length);
+    }
+}
+
+/* A record of an interaction or of the beginning of an episode must be what an agent accepts. */
+static void check_record(const rlvc_log_reader *reader, const rlvc_log_record *record, int open,
+                         const unsigned char *buffer_end) {
+    must(record->kind == RLVC_LOG_BEGIN || (open && record->choice.action < reader->actions));
+    must(record->end <= RLVC_TRUNCATED);
+    must(record->percept != NULL || record->end == RLVC_TERMINATED);
+    if (record->percept)
+        must((const unsigned char *)record->percept + reader->percept_bytes <= buffer_end);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     unsigned char buffer[RLVC_LOG_RECORD_BYTES(PERCEPT)];
     rlvc_log_reader reader;
@@ -53,16 +76,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int open = 0;
     if (size < 1 || size > sizeof tape)
         return 0;
-    length = 0;
-    at = 0;
-    piece = 1u + data[0] % 32u;
+    fill_tape(data, size);
     uint32_t known = data[0] >> 5 & 1u;
-    if (data[0] >> 6 & 1) {
-        make_records(data + 1, size - 1);
-    } else {
-        length = (uint32_t)size - 1u;
-        memcpy(tape, data + 1, length);
-    }
     must(rlvc_log_read(&reader, known ? PERCEPT : 0, known ? ACTIONS : 0, buffer, sizeof buffer,
                        read_tape, NULL) == RLVC_OK);
     for (;;) {
@@ -75,12 +90,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         }
         if (record.kind == RLVC_LOG_END)
             break;
-        must(record.kind == RLVC_LOG_BEGIN || (open && record.choice.action < reader.actions));
-        must(record.end <= RLVC_TRUNCATED);
-        must(record.percept != NULL || record.end == RLVC_TERMINATED);
-        if (record.percept)
-            must((const unsigned char *)record.percept + reader.percept_bytes <=
-                 buffer + sizeof buffer);
+        check_record(&reader, &record, open, buffer + sizeof buffer);
         open = record.kind == RLVC_LOG_BEGIN || record.end == RLVC_GOES_ON;
     }
     must(at == length && reader.skipped <= length);

@@ -26,6 +26,26 @@ DOUBLE = re.compile(r"\bdouble\b|(?<![\w.])(?:0[xX][\da-fA-F.]+[pP][+-]?\d+|\d+[
                     r"(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\w.])")
 
 
+def fault_of_include(path, room, bracket, header):
+    """What is wrong with an #include in a file of a room of core/src (None: of a folder beside), or None."""
+    if bracket == "<":
+        if header not in C_HEADERS | C_HEADERS_OF.get(path.relative_to(ROOT).as_posix(), set()):
+            return f"includes <{header}>"
+        return None
+    if header.startswith("rlvc/"):
+        if not (ROOT / "core/include" / header).exists():
+            return f'includes "{header}", which is no public header'
+        return None
+    if room is None:
+        return f'includes "{header}", but may only include public headers'
+    included = (path.parent / header).resolve()
+    if not included.is_file():
+        return f'includes "{header}", which does not exist'
+    if included.parent.name not in ROOMS[:ROOMS.index(room) + 1]:
+        return f'room {room} includes "{header}", which is not in a room before it'
+    return None
+
+
 def faults(path):
     name = path.relative_to(ROOT).as_posix()
     text = path.read_text(encoding="utf-8")
@@ -36,20 +56,8 @@ def faults(path):
         yield f"{name}: lies in no room of core/src: {', '.join(ROOMS)}"
         return
     for match in INCLUDE.finditer(text):
-        bracket, header = match.groups()
-        where = f"{name}:{text.count(chr(10), 0, match.start(2)) + 1}"
-        if bracket == "<":
-            if header not in C_HEADERS | C_HEADERS_OF.get(name, set()):
-                yield f"{where}: includes <{header}>"
-        elif header.startswith("rlvc/"):
-            if not (ROOT / "core/include" / header).exists():
-                yield f'{where}: includes "{header}", which is no public header'
-        elif room is None:
-            yield f'{where}: includes "{header}", but may only include public headers'
-        elif not (included := (path.parent / header).resolve()).is_file():
-            yield f'{where}: includes "{header}", which does not exist'
-        elif included.parent.name not in ROOMS[:ROOMS.index(room) + 1]:
-            yield f'{where}: room {room} includes "{header}", which is not in a room before it'
+        if fault := fault_of_include(path, room, *match.groups()):
+            yield f"{name}:{text.count(chr(10), 0, match.start(2)) + 1}: {fault}"
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
     for match in DOUBLE.finditer(code):
         yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: a double: {match.group()}"

@@ -30,6 +30,31 @@ def symbols(archive):
             where = line[line.index("[") + 1:-2]
 
 
+def needs(table):
+    """(object file, name) of what the archive needs from elsewhere."""
+    defined = {name for _, kind, name, _ in table if kind != "U"}
+    return sorted({(where, name) for where, kind, name, _ in table
+                   if kind == "U" and name not in defined})
+
+
+def functions(table):
+    return {name for _, kind, name, _ in table if kind == "T"}
+
+
+def faults(table, allowed):
+    for where, name in needs(table):
+        if name not in allowed:
+            yield f"{where}: needs {name}"
+    for where, kind, name, section in table:
+        if kind not in READ_ONLY and not section.startswith(RELOCATED):
+            yield f"{where}: {name}, in {section}, is neither code nor read-only data"
+    for name in sorted(functions(table)):
+        if not name.startswith("rlvc_"):
+            yield f"{name} is not named rlvc_*"
+    if not functions(table):
+        yield "the archive defines no function"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("archive")
@@ -39,22 +64,12 @@ def main():
     allowed = ALLOWED | (ASSERTS if arguments.asserts else set())
 
     table = list(symbols(arguments.archive))
-    defined = {name for _, kind, name, _ in table if kind != "U"}
-    needed = {(where, name) for where, kind, name, _ in table
-              if kind == "U" and name not in defined}
-    faults = [f"{where}: needs {name}" for where, name in sorted(needed) if name not in allowed]
-    faults += [f"{where}: {name}, in {section}, is neither code nor read-only data"
-               for where, kind, name, section in table
-               if kind not in READ_ONLY and not section.startswith(RELOCATED)]
-    functions = sorted(name for _, kind, name, _ in table if kind == "T")
-    faults += [f"{name} is not named rlvc_*" for name in functions if not name.startswith("rlvc_")]
-    if not functions:
-        faults.append("the archive defines no function")
-    for fault in faults:
+    found = list(faults(table, allowed))
+    for fault in found:
         print(fault, file=sys.stderr)
-    names = sorted({name for _, name in needed})
-    print(f"{len(functions)} functions; needs {', '.join(names) or 'nothing'}")
-    return bool(faults)
+    names = sorted({name for _, name in needs(table)})
+    print(f"{len(functions(table))} functions; needs {', '.join(names) or 'nothing'}")
+    return bool(found)
 
 
 if __name__ == "__main__":
