@@ -5,6 +5,8 @@ public function, and the memory of the firmware example. Compares with core/SIZE
 with --write. Needs the compilers that tools/setup targets installs."""
 
 import argparse
+import concurrent.futures
+import os
 import pathlib
 import re
 import shutil
@@ -44,14 +46,17 @@ def run(*command):
 
 def compile_core(target, level, folder, *definitions):
     prefix, options = TARGETS[target]
-    objects = {}
     folder.mkdir(exist_ok=True)
-    for source in sources():
+
+    def compile_one(source):
         name = f"{source.parent.name}/{source.stem}"
-        objects[name] = folder / f"{target}{level}_{source.parent.name}_{source.stem}.o"
+        file = folder / f"{target}{level}_{source.parent.name}_{source.stem}.o"
         run(prefix + "gcc", *FLAGS, *options, *level.split(), *definitions, "-fstack-usage", "-fcallgraph-info=su",
-            f"-I{ROOT}/core/include", "-c", source, "-o", objects[name])
-    return objects
+            f"-I{ROOT}/core/include", "-c", source, "-o", file)
+        return name, file
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return dict(pool.map(compile_one, sources()))
 
 
 def sections(prefix, file):

@@ -10,14 +10,14 @@
 namespace rlvc {
 namespace {
 
-[[noreturn]] void refuse(const std::string &text) {
+[[noreturn]] void refuse_picture(const std::string &text) {
     throw Failure(RLVC_VISION_E_PICTURE, text);
 }
 
 void check_side(uint32_t side, const std::string &name) {
     if (side < 1 || side > RLVC_PICTURE_SIDE_MAX)
-        refuse(name + " is " + std::to_string(side) + ", but must be 1 to " +
-               std::to_string(RLVC_PICTURE_SIDE_MAX) + " pixels");
+        refuse_picture(name + " is " + std::to_string(side) + ", but must be 1 to " +
+                       std::to_string(RLVC_PICTURE_SIDE_MAX) + " pixels");
 }
 
 } // namespace
@@ -29,17 +29,17 @@ Picture checked(const rlvc_picture &picture, const char *what) {
     check_side(picture.width, name + ".width");
     check_side(picture.height, name + ".height");
     if (picture.format > RLVC_PICTURE_RGB)
-        refuse(name + ".format is " + std::to_string(picture.format) +
-               ", but must be grey (0), BGR (1) or RGB (2)");
+        refuse_picture(name + ".format is " + std::to_string(picture.format) +
+                       ", but must be grey (0), BGR (1) or RGB (2)");
     const int channels = picture.format == RLVC_PICTURE_GREY ? 1 : 3;
     const ptrdiff_t row = static_cast<ptrdiff_t>(picture.width) * channels;
     if (picture.height > 1 && picture.stride < row && picture.stride > -row)
-        refuse(name + ".stride is " + std::to_string(picture.stride) + ", but a row is " +
-               std::to_string(row) + " bytes");
+        refuse_picture(name + ".stride is " + std::to_string(picture.stride) + ", but a row is " +
+                       std::to_string(row) + " bytes");
     const ptrdiff_t most = PTRDIFF_MAX / static_cast<ptrdiff_t>(picture.height);
     if (picture.height > 1 && (picture.stride > most || picture.stride < -most))
-        refuse(name + ".stride is " + std::to_string(picture.stride) +
-               ", which no memory can hold so many rows of");
+        refuse_picture(name + ".stride is " + std::to_string(picture.stride) +
+                       ", which no memory can hold so many rows of");
     return {picture.pixels,
             picture.height > 1 ? picture.stride : row,
             static_cast<int>(picture.width),
