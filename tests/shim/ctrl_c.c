@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A trace function for test_interrupts.py: sends SIGINT before the bytecode of a number. It is C, so that
- * the interpreter itself decides where Python's handler runs, and not while the trace function does. */
+/* A trace function for test_interrupts.py: sends SIGINT before the bytecode of a number. It is C,
+ * so that the interpreter itself decides where Python's handler runs, and not while the trace
+ * function does. */
 #include <signal.h>
 
 static long left;

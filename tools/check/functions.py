@@ -30,8 +30,6 @@ FLAT = {
 TO_SPLIT = {
     "core/src/agent/agent.c: rlvc_act",
     "core/src/policy/min_tree.c: rlvc_min_tree",
-    "tools/run_gridworld/options.cc: settle",
-    "tools/run_gridworld/tiled/options.cc: settle",
 }
 ALLOWED = FLAT | TO_SPLIT
 GENERATED = {"shim/rlvc/_native/bindings.py"}  # by tools/check/bindings.py

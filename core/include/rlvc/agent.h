@@ -248,11 +248,11 @@ typedef struct rlvc_progress {
  * again; *progress tells. */
 RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress);
 
-/* Gives up the learning step under way, for the next rlvc_learn to begin another, and lets go of the
- * interactions that it held: for a step that cannot be finished, since a callback goes on failing.
- * Splits and values that it made so far stand, k is not incremented. rlvc_begin and rlvc_observe do
- * the same, instead of answering RLVC_E_BUSY, if the last call of rlvc_learn failed: what made it
- * fail leaves the ring with its interaction. O(capacity + classes).
+/* Gives up the learning step under way, for the next rlvc_learn to begin another, and lets go of
+ * the interactions that it held: for a step that cannot be finished, since a callback goes on
+ * failing. Splits and values that it made so far stand, k is not incremented. rlvc_begin and
+ * rlvc_observe do the same, instead of answering RLVC_E_BUSY, if the last call of rlvc_learn
+ * failed: what made it fail leaves the ring with its interaction. O(capacity + classes).
  * @return RLVC_OK, also if no step is under way. */
 RLVC_API rlvc_status rlvc_learn_abandon(rlvc_agent *agent);
 
