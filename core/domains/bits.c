@@ -11,7 +11,7 @@
 
 /* Fetches memory that is wanted soon: in the order of their targets, samples lie all over the
  * ring. */
-#if defined(__GNUC__)
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
 #define FETCH(address) __builtin_prefetch(address)
 #else
 #define FETCH(address) ((void)(address))

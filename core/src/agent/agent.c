@@ -13,10 +13,9 @@ typedef char split_record_fits[sizeof(rlvc_tree_split) == RLVC_SPLIT_BYTES ? 1 :
 
 /* ------------------------------------------------------------------ making an agent */
 
-/* Lays the agent out behind *agent, whose config and domain are filled in. */
-static void carve(rlvc_agent *agent, rlvc_arena *arena) {
-    const rlvc_config *config = &agent->config;
-    const rlvc_domain *domain = &agent->domain;
+/* Lays the agent out behind *agent. */
+static void carve(rlvc_agent *agent, const rlvc_config *config, const rlvc_domain *domain,
+                  rlvc_arena *arena) {
     (void)rlvc_arena_carve(arena, 1, sizeof *agent);
     rlvc_replay_carve(&agent->replay, arena, config, domain->percept_bytes);
     rlvc_tree_carve(&agent->tree, arena, config->classes, domain->feature_bytes);
@@ -33,9 +32,7 @@ rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain
     rlvc_arena arena = {NULL, 0};
     if (status == RLVC_OK) {
         rlvc_agent agent;
-        agent.config = *config;
-        agent.domain = *domain;
-        carve(&agent, &arena);
+        carve(&agent, config, domain, &arena);
         if (arena.used > SIZE_MAX) {
             arena.used = 0;
             status = RLVC_E_MEMORY;
@@ -67,12 +64,12 @@ rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain
     memset(made, 0, sizeof *made);
     made->config = copied_config;
     made->domain = copied_domain;
-    carve(made, &arena);
+    carve(made, &made->config, &made->domain, &arena);
     rlvc_tree_clear(&made->tree);
     rlvc_values_clear(&made->values);
-    rlvc_explorer_clear(&made->explorer, config->actions);
+    rlvc_explorer_clear(&made->explorer, made->config.actions);
     made->pending[0] = 0;
-    rlvc_rng_seed(&made->rng, config->seed);
+    rlvc_rng_seed(&made->rng, made->config.seed);
     *agent = made;
     return RLVC_OK;
 }
@@ -113,7 +110,8 @@ rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept) {
     if (status != RLVC_OK)
         return status;
     /* A run of exploitation goes on where the window of definition 1 does. */
-    int goes_on = agent->config.continuing && !agent->replay.open && agent->replay.count > 0 &&
+    int goes_on = RLVC_BY_RETURNS(agent->config.criterion) && agent->config.continuing &&
+                  !agent->replay.open && agent->replay.count > 0 &&
                   (agent->replay.flags[rlvc_replay_slot(&agent->replay, agent->replay.count - 1)] &
                    RLVC_SLOT_TERMINATED);
     status = rlvc_replay_begin(&agent->replay, percept);
@@ -124,6 +122,18 @@ rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept) {
     if (status == RLVC_OK && !goes_on)
         agent->run = 0;
     return status;
+}
+
+/* The class of the current percept. */
+static rlvc_status current_class(rlvc_agent *agent, uint32_t *class_id) {
+    uint32_t slot = rlvc_replay_slot(&agent->replay, agent->replay.count - 1);
+    return classify(agent, rlvc_replay_percept(&agent->replay, slot), class_id);
+}
+
+static uint32_t explore(const rlvc_agent *agent, uint32_t class_id, rlvc_rng *rng) {
+    if (agent->config.explore == RLVC_EXPLORE_DIRECTED)
+        return rlvc_explorer_choose(&agent->explorer, agent->config.actions, class_id, rng);
+    return rlvc_rng_below(rng, agent->config.actions);
 }
 
 rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice) {
@@ -138,24 +148,17 @@ rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice) {
     rlvc_rng rng = agent->rng;
     uint32_t run = agent->run, class_id = 0, action;
     if (run == 0 && !(rlvc_rng_uniform(&rng) < agent->config.epsilon))
-        run = agent->config.criterion == RLVC_CRITERION_RETURNS ? agent->step + 1u : 1u;
-    if (run > 0 || directed) {
-        uint32_t slot = rlvc_replay_slot(&agent->replay, agent->replay.count - 1);
-        status = classify(agent, rlvc_replay_percept(&agent->replay, slot), &class_id);
-        if (status != RLVC_OK)
-            return status;
-    }
-    if (run > 0)
-        action = agent->values.policy[class_id];
-    else if (directed)
-        action = rlvc_explorer_choose(&agent->explorer, agent->config.actions, class_id, &rng);
-    else
-        action = rlvc_rng_below(&rng, agent->config.actions);
+        run = RLVC_BY_RETURNS(agent->config.criterion) ? agent->step + 1u : 1u;
+    if (run > 0 || directed)
+        status = current_class(agent, &class_id);
+    if (status != RLVC_OK)
+        return status;
+    action = run > 0 ? agent->values.policy[class_id] : explore(agent, class_id, &rng);
     if (directed)
         rlvc_explorer_note(&agent->explorer, agent->config.actions, class_id, action);
     choice->action = (uint8_t)action;
     choice->exploited = run > 0;
-    agent->run = run > 0 ? run - 1u : 0;
+    agent->run = run - (run > 0);
     agent->rng = rng;
     return RLVC_OK;
 }

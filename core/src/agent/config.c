@@ -4,6 +4,8 @@
 
 #include "../stats/rank_sum.h"
 #include "../base/solver_select.h"
+#include <stddef.h>
+#include <string.h>
 
 rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, uint32_t actions) {
     static const rlvc_config defaults = {
@@ -35,15 +37,8 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
     return RLVC_OK;
 }
 
-static int within(float x, float low, float high) {
-    return x >= low && x <= high; /* false for a NaN */
-}
-
-static int above(float x, float low, float high) {
-    return x > low && x <= high;
-}
-
-/* What may be wrong: one for each message of message_of. */
+/* What may be wrong: one for each message of message_of. Counts, choices and numbers are in the
+ * order of the config's fields. */
 enum {
     NOTHING_WRONG,
     WRONG_DOMAIN_PERCEPT_BYTES,
@@ -63,6 +58,8 @@ enum {
     WRONG_CONTINUING,
     WRONG_SUCCESSORS,
     WRONG_EXPLORE,
+    WRONG_RESERVED,
+    WRONG_RESERVED_TOO,
     WRONG_DISCOUNT,
     WRONG_EPSILON,
     WRONG_ALPHA,
@@ -87,52 +84,63 @@ static int wrong_in_domain(const rlvc_domain *domain) {
     return NOTHING_WRONG;
 }
 
+/* The fields from an offset on: those of one type follow each other, as the next lines check. */
+static const unsigned char *fields_of(const rlvc_config *config, size_t offset) {
+    return (const unsigned char *)config + offset;
+}
+typedef char six_counts[offsetof(rlvc_config, seed) == 24 ? 1 : -1];
+typedef char
+    eight_choices[offsetof(rlvc_config, discount) - offsetof(rlvc_config, criterion) == 8 ? 1 : -1];
+typedef char six_numbers[sizeof(rlvc_config) - offsetof(rlvc_config, discount) == 24 ? 1 : -1];
+
+/* The range of a field, its ends included. */
+typedef struct range {
+    uint32_t low;
+    uint32_t high;
+} range;
+
 static int wrong_in_counts(const rlvc_config *config) {
-    if (config->actions < 1 || config->actions > 255)
-        return WRONG_ACTIONS;
-    if (config->capacity < 1 || config->capacity > INT32_MAX)
-        return WRONG_CAPACITY;
-    if (config->classes < 1 || config->classes > 65535)
-        return WRONG_CLASSES;
-    if (config->features_at_once < 1 || config->features_at_once > RLVC_DETECT_FEATURES)
-        return WRONG_FEATURES_AT_ONCE;
-    if (config->min_samples < 2 || config->min_samples > INT32_MAX)
-        return WRONG_MIN_SAMPLES;
-    if (config->max_sweeps < 1 || config->max_sweeps > INT32_MAX)
-        return WRONG_MAX_SWEEPS;
+    uint32_t count[6];
+    static const range ranges[] = {{1, 255},       {1, INT32_MAX},
+                                   {1, 65535},     {1, RLVC_DETECT_FEATURES},
+                                   {2, INT32_MAX}, {1, INT32_MAX}};
+    memcpy(count, fields_of(config, offsetof(rlvc_config, actions)), sizeof count);
+    for (int i = 0; i < (int)(sizeof count / sizeof count[0]); i++) {
+        if (count[i] < ranges[i].low || count[i] > ranges[i].high)
+            return WRONG_ACTIONS + i;
+    }
     return NOTHING_WRONG;
 }
 
+/* Bit n of a field's mask: it may be n. */
 static int wrong_in_choices(const rlvc_config *config) {
-    if (config->criterion > RLVC_CRITERION_RESIDUAL)
-        return WRONG_CRITERION;
-    if (config->score != RLVC_SCORE_GAIN && config->score != RLVC_SCORE_RANKS)
-        return WRONG_SCORE;
-    unsigned solver = config->solver <= RLVC_SOLVER_SARSA ? 1u << config->solver : 0u;
-    if (!(solver & (unsigned)(RLVC_SOLVERS)))
-        return WRONG_SOLVER;
-    if (config->continuing > 1)
-        return WRONG_CONTINUING;
-    if (config->successors > 1)
-        return WRONG_SUCCESSORS;
-    if (config->explore > RLVC_EXPLORE_DIRECTED)
-        return WRONG_EXPLORE;
+    uint8_t choice[8];
+    static const uint8_t masks[] = {
+        (RLVC_CRITERIA) & (1u << RLVC_CRITERION_RETURNS | 1u << RLVC_CRITERION_RESIDUAL),
+        (RLVC_SCORES) & (1u << RLVC_SCORE_GAIN | 1u << RLVC_SCORE_RANKS),
+        (RLVC_SOLVERS)&15u,
+        3,
+        3,
+        1u << RLVC_EXPLORE_UNIFORM | 1u << RLVC_EXPLORE_DIRECTED,
+        1,
+        1};
+    memcpy(choice, fields_of(config, offsetof(rlvc_config, criterion)), sizeof choice);
+    for (int i = 0; i < (int)sizeof choice; i++) {
+        if (choice[i] > 7u || !(masks[i] >> choice[i] & 1u))
+            return WRONG_CRITERION + i;
+    }
     return NOTHING_WRONG;
 }
 
 static int wrong_in_numbers(const rlvc_config *config) {
-    if (!within(config->discount, 0.0f, 1.0f))
-        return WRONG_DISCOUNT;
-    if (!within(config->epsilon, 0.0f, 1.0f))
-        return WRONG_EPSILON;
-    if (!above(config->alpha, 0.0f, 1.0f))
-        return WRONG_ALPHA;
-    if (!above(config->alpha_known, 0.0f, 1.0f))
-        return WRONG_ALPHA_KNOWN;
-    if (!above(config->tolerance, 0.0f, RLVC_REWARD_MAX))
-        return WRONG_TOLERANCE;
-    if (!above(config->learning_rate, 0.0f, 1.0f))
-        return WRONG_LEARNING_RATE;
+    float number[6];
+    memcpy(number, fields_of(config, offsetof(rlvc_config, discount)), sizeof number);
+    for (int i = 0; i < (int)(sizeof number / sizeof number[0]); i++) {
+        int may_be_0 = i < 2;
+        float high = i == 4 ? RLVC_REWARD_MAX : 1.0f;
+        if (!(number[i] >= 0.0f && number[i] <= high) || (number[i] == 0.0f && !may_be_0))
+            return WRONG_DISCOUNT + i; /* also a NaN */
+    }
     return NOTHING_WRONG;
 }
 
@@ -161,12 +169,15 @@ static const char *message_of(int wrong) {
         [WRONG_FEATURES_AT_ONCE] = "features_at_once must be within [1, 64]",
         [WRONG_MIN_SAMPLES] = "min_samples must be within [2, 2^31 - 1]",
         [WRONG_MAX_SWEEPS] = "max_sweeps must be within [1, 2^31 - 1]",
-        [WRONG_CRITERION] = "criterion must be one of RLVC_CRITERION_*",
-        [WRONG_SCORE] = "score must be one of RLVC_SCORE_*",
+        [WRONG_CRITERION] =
+            "criterion must be one of RLVC_CRITERION_* that the library was built with",
+        [WRONG_SCORE] = "score must be one of RLVC_SCORE_* that the library was built with",
         [WRONG_SOLVER] = "solver must be one of RLVC_SOLVER_* that the library was built with",
         [WRONG_CONTINUING] = "continuing must be 0 or 1",
         [WRONG_SUCCESSORS] = "successors must be 0 or 1",
         [WRONG_EXPLORE] = "explore must be one of RLVC_EXPLORE_*",
+        [WRONG_RESERVED] = "reserved must be 0",
+        [WRONG_RESERVED_TOO] = "reserved must be 0",
         [WRONG_DISCOUNT] = "discount must be within [0, 1]",
         [WRONG_EPSILON] = "epsilon must be within [0, 1]",
         [WRONG_ALPHA] = "alpha must be within (0, 1]",

@@ -25,6 +25,7 @@
 #include "learn.h"
 
 #include "../base/float_math.h"
+#include "../base/solver_select.h"
 #include <string.h>
 
 static uint32_t pairs(const rlvc_agent *agent) {
@@ -101,7 +102,7 @@ static rlvc_status step_label(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_replay *replay = &agent->replay;
     if (learner->at == replay->frozen) {
-        if (agent->config.criterion == RLVC_CRITERION_RETURNS)
+        if (RLVC_BY_RETURNS(agent->config.criterion))
             enter(agent, RLVC_PHASE_GROUP);
         else
             enter(agent,
@@ -187,8 +188,11 @@ static int recognise(rlvc_agent *agent, const void *feature) {
 static float log_level(const rlvc_agent *agent) {
     float steps = 1.0f; /* of the doubling */
     uint32_t d = 1;
-    for (uint64_t k = agent->step + (uint64_t)1; k >> d != 0; d++)
+    /* (k + 1) / 2, where k + 1 may not fit. */
+    for (uint32_t left = agent->step / 2u + agent->step % 2u; left != 0; left /= 2u) {
         steps *= 2.0f;
+        d++;
+    }
     float phases = agent->config.successors ? 2.0f : 1.0f;
     return rlvc_ln(agent->config.alpha) - rlvc_ln((float)(d * (d + 1u)) * steps * phases);
 }
@@ -226,7 +230,7 @@ static void end_round(rlvc_agent *agent) {
     const rlvc_config *config = &agent->config;
     if (agent->learner.made > 0)
         enter(agent, RLVC_PHASE_LABEL);
-    else if (config->criterion == RLVC_CRITERION_RETURNS)
+    else if (RLVC_BY_RETURNS(config->criterion))
         enter(agent, rlvc_is_incremental(config) ? RLVC_PHASE_FINISH : RLVC_PHASE_MODEL);
     else
         enter(agent, config->successors && agent->learner.phase == RLVC_PHASE_SEARCH
@@ -299,8 +303,7 @@ static uint32_t step_model(rlvc_agent *agent, uint32_t budget) {
 
 /* The values are there: what comes then. */
 static void leave_model(rlvc_agent *agent) {
-    enter(agent,
-          agent->config.criterion == RLVC_CRITERION_RETURNS ? RLVC_PHASE_FINISH : RLVC_PHASE_GROUP);
+    enter(agent, RLVC_BY_RETURNS(agent->config.criterion) ? RLVC_PHASE_FINISH : RLVC_PHASE_GROUP);
 }
 
 static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
@@ -340,7 +343,7 @@ static void step_finish(rlvc_agent *agent) {
     }
     /* The next step of the returns criterion looks at longer windows under another policy: the
      * database must be collected afresh (section 4.2.1). */
-    if (agent->config.criterion == RLVC_CRITERION_RETURNS)
+    if (RLVC_BY_RETURNS(agent->config.criterion))
         rlvc_replay_clear(&agent->replay);
     agent->replay.frozen = 0;
     agent->run = 0;
@@ -356,7 +359,8 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
         status = step_label(agent);
         break;
     case RLVC_PHASE_COPY_VALUES:
-        step_copy_values(agent);
+        if (RLVC_HAS_INCREMENTAL)
+            step_copy_values(agent);
         break;
     case RLVC_PHASE_GROUP:
         *used = step_group(agent, budget);
@@ -395,7 +399,7 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     if (budget < RLVC_BUDGET_MIN)
         return RLVC_E_RANGE;
     rlvc_status status = RLVC_OK;
-    uint64_t work = 0;
+    uint32_t work = 0;
     int unbounded = budget == RLVC_BUDGET_UNBOUNDED;
     if (agent->learner.phase == RLVC_PHASE_IDLE)
         begin_step(agent);
@@ -403,14 +407,14 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
     while (status == RLVC_OK && agent->learner.phase != RLVC_PHASE_IDLE &&
            (unbounded || budget - work >= needed(agent))) {
         uint32_t used = 0;
-        status = step_phase(agent, unbounded ? budget : (uint32_t)(budget - work), &used);
+        status = step_phase(agent, unbounded ? budget : budget - work, &used);
         work += used;
+        work |= 0u - (uint32_t)(work < used); /* all ones where it does not fit */
     }
     agent->busy = 0;
     agent->learner.failed = status != RLVC_OK;
     memset(progress, 0, sizeof *progress);
-    /* All ones where it does not fit: nobody budgets a step of so much work. */
-    progress->work = (uint32_t)work | (0u - (uint32_t)(work > UINT32_MAX));
+    progress->work = work;
     progress->rounds = agent->learner.rounds;
     progress->splits = agent->learner.splits;
     progress->done = agent->learner.phase == RLVC_PHASE_IDLE;

@@ -30,15 +30,9 @@ typedef struct rlvc_arena {
 
 /* The next `count` items of `size` bytes, the whole rounded up to RLVC_ALIGNMENT; null when only
  * counting. O(1). */
-static inline void *rlvc_arena_carve(rlvc_arena *arena, uint64_t count, uint64_t size) {
-    uint64_t begin = arena->used, mask = RLVC_ALIGNMENT - 1u;
-    arena->used += ((count * size + mask) & ~mask) + RLVC_RED_ZONE_BYTES;
-    if (!arena->base)
-        return NULL;
-    RLVC_UNPOISON(arena->base + (size_t)begin, (size_t)(count * size));
-    RLVC_POISON(arena->base + (size_t)(begin + count * size),
-                (size_t)(arena->used - begin - count * size));
-    return arena->base + (size_t)begin;
-}
+void *rlvc_arena_carve(rlvc_arena *arena, uint32_t count, uint32_t size);
+
+/* The next `bytes` bytes, likewise. O(1). */
+void *rlvc_arena_carve_bytes(rlvc_arena *arena, uint64_t bytes);
 
 #endif

@@ -23,3 +23,8 @@ uint32_t rlvc_popcount(const uint64_t *word, uint32_t words) {
     sum = (sum & halves) + ((sum >> 8) & halves);
     return (uint32_t)((sum * 0x0001000100010001u) >> 48);
 }
+
+void rlvc_bit_append(uint64_t *word, uint32_t i, int bit) {
+    uint64_t before = i % 64u == 0 ? 0 : word[i / 64u];
+    word[i / 64u] = before | (uint64_t)(bit != 0) << i % 64u;
+}

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Which solvers are built in. A controller that uses one need not carry the others:
- * -DRLVC_SOLVERS=1 leaves all but value iteration out, which saves it some 2 KiB. Bit n stands for
- * the solver number n (RLVC_SOLVER_*).
+/* Which solvers, scores and criteria are built in. A controller that uses one of each need not
+ * carry the others: -DRLVC_SOLVERS=1 -DRLVC_SCORES=1 -DRLVC_CRITERIA=2 leave value iteration, the
+ * information gain and the residual criterion, and save about 2 KiB. Bit n stands for number n of
+ * RLVC_SOLVER_*, RLVC_SCORE_* or RLVC_CRITERION_*.
  *
  * What is left out is compiled all the same, under conditions that are constant, so that it cannot
  * rot. */
@@ -11,8 +12,26 @@
 #ifndef RLVC_SOLVERS
 #define RLVC_SOLVERS 15u
 #endif
+#ifndef RLVC_SCORES
+#define RLVC_SCORES 9u
+#endif
+#ifndef RLVC_CRITERIA
+#define RLVC_CRITERIA 3u
+#endif
 
 /* 1 if a solver is built in. O(1). */
-#define RLVC_HAS_SOLVER(number) ((int)(1u & (unsigned)(RLVC_SOLVERS) >> (number)))
+#define RLVC_HAS_SOLVER(number) ((int)((unsigned)(RLVC_SOLVERS) >> (number)&1u))
+
+/* 1 if there is a solver that learns while observing. O(1). */
+#define RLVC_HAS_INCREMENTAL                                                                       \
+    (RLVC_HAS_SOLVER(RLVC_SOLVER_Q_LEARNING) || RLVC_HAS_SOLVER(RLVC_SOLVER_SARSA))
+
+/* 1 if a score is built in. O(1). */
+#define RLVC_HAS_SCORE(number) ((int)((unsigned)(RLVC_SCORES) >> (number)&1u))
+
+/* 1 if a config's criterion is the returns criterion, which must be built in. O(1). */
+#define RLVC_BY_RETURNS(criterion)                                                                 \
+    (((unsigned)(RLVC_CRITERIA) >> RLVC_CRITERION_RETURNS & 1u) != 0 &&                            \
+     (criterion) == RLVC_CRITERION_RETURNS)
 
 #endif

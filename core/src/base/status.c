@@ -3,41 +3,30 @@
 #include "rlvc/rlvc.h"
 
 const char *rlvc_status_text(rlvc_status status) {
-    switch (status) {
-    case RLVC_OK:
-        return "ok";
-    case RLVC_E_NULL:
-        return "a required pointer is null";
-    case RLVC_E_CONFIG:
-        return "a field of the config or the domain is out of range (rlvc_config_check says which)";
-    case RLVC_E_MEMORY:
-        return "the memory block is too small, not aligned to 8, or damaged";
-    case RLVC_E_ORDER:
-        return "there is no current percept (call rlvc_begin first)";
-    case RLVC_E_RANGE:
-        return "an action, class, index or budget is out of range";
-    case RLVC_E_REWARD:
-        return "a reward is not a finite number within +-1e12";
-    case RLVC_E_BUSY:
-        return "the ring is full and its oldest interaction is being learnt from (finish learning)";
-    case RLVC_E_CALLBACK:
-        return "a callback failed";
-    case RLVC_E_REENTERED:
-        return "a callback called back into the agent that had called it";
-    case RLVC_E_STORE:
-        return "a read, write, erase or sync of the store failed";
-    case RLVC_E_EMPTY:
-        return "the store holds no snapshot";
-    case RLVC_E_DAMAGED:
-        return "what is stored was cut short or changed";
-    case RLVC_E_VERSION:
-        return "what is stored is of a version that this library does not read";
-    case RLVC_E_MISMATCH:
-        return "what is stored is of another config or another domain";
-    case RLVC_E_PERCEPT:
-        return "the domain refuses the percept: a number in it is not finite or out of range";
-    }
-    return "not a status of rlvc";
+    static const char *const texts[] = {
+        [-RLVC_OK] = "ok",
+        [-RLVC_E_NULL] = "a required pointer is null",
+        [-RLVC_E_CONFIG] = "a field of the config or the domain is out of range "
+                           "(rlvc_config_check says which)",
+        [-RLVC_E_MEMORY] = "the memory block is too small, not aligned to 8, or damaged",
+        [-RLVC_E_ORDER] = "there is no current percept (call rlvc_begin first)",
+        [-RLVC_E_RANGE] = "an action, class, index or budget is out of range",
+        [-RLVC_E_REWARD] = "a reward is not a finite number within +-1e12",
+        [-RLVC_E_BUSY] = "the ring is full and its oldest interaction is being learnt from "
+                         "(finish learning)",
+        [-RLVC_E_CALLBACK] = "a callback failed",
+        [-RLVC_E_REENTERED] = "a callback called back into the agent that had called it",
+        [-RLVC_E_STORE] = "a read, write, erase or sync of the store failed",
+        [-RLVC_E_EMPTY] = "the store holds no snapshot",
+        [-RLVC_E_DAMAGED] = "the snapshot is truncated or corrupt",
+        [-RLVC_E_VERSION] = "the snapshot is of a version that this library does not read",
+        [-RLVC_E_MISMATCH] = "the snapshot is of another config or another domain",
+        [-RLVC_E_PERCEPT] =
+            "the domain refuses the percept: a number in it is not finite or out of "
+            "range",
+    };
+    const uint32_t index = 0u - (uint32_t)status;
+    return index < sizeof texts / sizeof texts[0] ? texts[index] : "not a status of rlvc";
 }
 
 const char *rlvc_version(void) {

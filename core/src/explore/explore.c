@@ -8,7 +8,7 @@
 #define MEAN_PARTS 4u
 
 void rlvc_explorer_carve(rlvc_explorer *explorer, rlvc_arena *arena, const rlvc_config *config) {
-    uint64_t pairs = (uint64_t)config->classes * config->actions;
+    uint32_t pairs = config->classes * config->actions;
     explorer->count = rlvc_arena_carve(arena, pairs, sizeof *explorer->count);
     explorer->to_novel = rlvc_arena_carve(arena, config->classes, sizeof *explorer->to_novel);
 }

@@ -2,7 +2,7 @@
 /* How near a class is to what was little tried: see novelty.h. */
 #include "novelty.h"
 
-#include "../samples/replay.h"
+#include "../solve/model.h"
 
 #define NOVELTY_DISCOUNT 0.95f
 #define OUT_OF_REACH 0.001f
@@ -67,15 +67,16 @@ static void close_pair(rlvc_novelty_cursor *cursor, const rlvc_solver_input *inp
 uint32_t rlvc_novelty_step(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
                            rlvc_values *values, rlvc_explorer *explorer, uint32_t budget) {
     uint32_t used = 0;
-    for (; used < budget && !cursor->done; used++) {
+    while (used < budget && !cursor->done) {
         size_t pair = rlvc_values_pair(values, cursor->class_id, cursor->action);
-        if (cursor->transition == values->begin.transition[pair + 1u]) {
+        uint32_t end = values->begin.transition[pair + 1u];
+        if (cursor->transition < end) {
+            used += rlvc_model_add(&cursor->sum, input->transition, &cursor->transition, end,
+                                   budget - used, values->pair.nearness);
+        } else {
             close_pair(cursor, input, values, explorer);
-            continue;
+            used++;
         }
-        const rlvc_transition *to = &input->transition[cursor->transition++];
-        rlvc_sum_add(&cursor->sum,
-                     to->next == RLVC_NO_CLASS ? 0.0f : values->pair.nearness[to->next], to->count);
     }
     return used;
 }

@@ -85,7 +85,7 @@ typedef struct min_tree {
 
 static void carve(min_tree *s, rlvc_arena *arena) {
     const rlvc_min_tree_task *task = s->task;
-    uint64_t depth = (uint64_t)(task->features < task->rows ? task->features : task->rows) + 1u;
+    uint32_t depth = (task->features < task->rows ? task->features : task->rows) + 1u;
     s->words = RLVC_MIN_TREE_WORDS(task->features);
     for (s->mask = 1; s->mask < task->entries / 2u;)
         s->mask = 2u * s->mask + 1u;
@@ -95,8 +95,8 @@ static void carve(min_tree *s, rlvc_arena *arena) {
     s->frames = rlvc_arena_carve(arena, depth, sizeof *s->frames);
     s->todo = rlvc_arena_carve(arena, depth + 1u, sizeof *s->todo);
     s->key = rlvc_arena_carve(arena, 2u * s->words, sizeof *s->key);
-    s->table = rlvc_arena_carve(arena, (uint64_t)s->mask + 1u, sizeof *s->table);
-    s->keys = rlvc_arena_carve(arena, ((uint64_t)s->mask + 1u) * 2u * s->words, sizeof *s->keys);
+    s->table = rlvc_arena_carve(arena, s->mask + 1u, sizeof *s->table);
+    s->keys = rlvc_arena_carve(arena, s->mask + 1u, 2u * s->words * (uint32_t)sizeof *s->keys);
 }
 
 static const uint64_t *row_at(const min_tree *s, uint32_t at) {
@@ -442,6 +442,10 @@ static int task_is_sound(const rlvc_min_tree_task *task) {
            task->effort <= RLVC_MIN_TREE_EFFORT_MAX;
 }
 
+static int has_rows(const rlvc_min_tree_task *task) {
+    return task && task->allowed && (task->row || task->features == 0);
+}
+
 /* Is no row without an action, and none with a bit beyond its features? */
 static int rows_are_sound(const rlvc_min_tree_task *task) {
     const uint32_t words = RLVC_MIN_TREE_WORDS(task->features), rest = task->features % 64u;
@@ -451,6 +455,15 @@ static int rows_are_sound(const rlvc_min_tree_task *task) {
             return 0;
     }
     return 1;
+}
+
+/* Puts the rows in order, and counts the actions. */
+static void number_rows(min_tree *s) {
+    for (uint32_t i = 0; i < s->task->rows; i++) {
+        s->order[i] = i;
+        while (s->actions < RLVC_MIN_TREE_ACTIONS_MAX && s->task->allowed[i] >> s->actions != 0)
+            s->actions++;
+    }
 }
 
 rlvc_status rlvc_min_tree_size(const rlvc_min_tree_task *task, size_t *bytes) {
@@ -472,7 +485,7 @@ rlvc_status rlvc_min_tree_size(const rlvc_min_tree_task *task, size_t *bytes) {
 rlvc_status rlvc_min_tree(const rlvc_min_tree_task *task, void *memory, size_t bytes,
                           rlvc_min_tree_result *tree) {
     size_t needed = 0;
-    if (!task || !tree || !memory || !task->allowed || (!task->row && task->features > 0))
+    if (!tree || !memory || !has_rows(task))
         return RLVC_E_NULL;
     rlvc_status status = rlvc_min_tree_size(task, &needed);
     if (status == RLVC_OK && !rows_are_sound(task))
@@ -488,11 +501,7 @@ rlvc_status rlvc_min_tree(const rlvc_min_tree_task *task, void *memory, size_t b
     s.task = &copied;
     carve(&s, &arena);
     clear(&s);
-    for (uint32_t i = 0; i < copied.rows; i++) {
-        s.order[i] = i;
-        while (s.actions < RLVC_MIN_TREE_ACTIONS_MAX && copied.allowed[i] >> s.actions != 0)
-            s.actions++;
-    }
+    number_rows(&s);
     const uint8_t exact = grow(&s);
     if (s.infeasible)
         return RLVC_E_RANGE;

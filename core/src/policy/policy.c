@@ -70,7 +70,7 @@ static void at_least(uint64_t *bytes, uint64_t needed) {
 
 static void carve(maker *m, rlvc_arena *arena) {
     const rlvc_tree *tree = &m->agent->tree;
-    const uint64_t percepts = m->config->percepts;
+    const uint32_t percepts = m->config->percepts;
     m->words = RLVC_MIN_TREE_WORDS(m->task.features);
     for (m->index_mask = 1; m->index_mask < 2u * m->config->percepts;)
         m->index_mask = 2u * m->index_mask + 1u;
@@ -80,11 +80,11 @@ static void carve(maker *m, rlvc_arena *arena) {
     m->kept = arena->used;
     m->number = rlvc_arena_carve(arena, tree->classes, sizeof *m->number);
     m->origin = rlvc_arena_carve(arena, m->task.features, sizeof *m->origin);
-    m->row = rlvc_arena_carve(arena, (percepts + 1u) * m->words, sizeof *m->row);
+    m->row = rlvc_arena_carve(arena, percepts + 1u, m->words * (uint32_t)sizeof *m->row);
     m->allowed = rlvc_arena_carve(arena, percepts, sizeof *m->allowed);
     at_least(&m->scratch_bytes, ((uint64_t)m->index_mask + 1u) * sizeof(uint32_t));
     at_least(&m->scratch_bytes, 2u * (uint64_t)tree->classes * sizeof(uint32_t));
-    m->scratch = rlvc_arena_carve(arena, 1, m->scratch_bytes);
+    m->scratch = rlvc_arena_carve_bytes(arena, m->scratch_bytes);
 }
 
 /* Checks the config and lays out, in a block if there is one. */

@@ -7,13 +7,13 @@
 
 void rlvc_replay_carve(rlvc_replay *replay, rlvc_arena *arena, const rlvc_config *config,
                        uint32_t percept_bytes) {
-    uint64_t slots = (uint64_t)config->capacity + 1u;
+    uint32_t slots = config->capacity + 1u;
     replay->percept = rlvc_arena_carve(arena, slots, percept_bytes);
     replay->reward = rlvc_arena_carve(arena, slots, sizeof *replay->reward);
     replay->label = rlvc_arena_carve(arena, slots, sizeof *replay->label);
     replay->action = rlvc_arena_carve(arena, slots, sizeof *replay->action);
     replay->flags = rlvc_arena_carve(arena, slots, sizeof *replay->flags);
-    replay->slots = (uint32_t)slots;
+    replay->slots = slots;
     replay->percept_bytes = percept_bytes;
     replay->head = 0;
     replay->count = 0;
@@ -104,19 +104,21 @@ void rlvc_replay_clear(rlvc_replay *replay) {
     replay->frozen = 0;
 }
 
+static int reward_is_sound(float reward) {
+    return reward >= -RLVC_REWARD_MAX && reward <= RLVC_REWARD_MAX;
+}
+
 static int slot_is_sound(const rlvc_replay *replay, uint32_t position, uint32_t actions,
                          uint32_t classes) {
     uint32_t slot = rlvc_replay_slot(replay, position);
     int last = position + 1 == replay->count;
+    int current = last && replay->open;
     if (replay->label[slot] != RLVC_NO_CLASS && replay->label[slot] >= classes)
         return 0;
     if (!(replay->flags[slot] & RLVC_SLOT_STORED))
-        return (last && replay->open) ||
+        return current ||
                (position > 0 && rlvc_replay_linked(replay, rlvc_replay_slot(replay, position - 1)));
-    if ((last && replay->open) || replay->action[slot] >= actions)
-        return 0;
-    float reward = replay->reward[slot];
-    if (!(reward >= -RLVC_REWARD_MAX && reward <= RLVC_REWARD_MAX))
+    if (current || replay->action[slot] >= actions || !reward_is_sound(replay->reward[slot]))
         return 0;
     return !last || !rlvc_replay_linked(replay, slot);
 }

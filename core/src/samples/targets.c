@@ -3,6 +3,7 @@
 #include "targets.h"
 
 #include "../base/float_math.h"
+#include "../base/solver_select.h"
 
 uint32_t rlvc_target_key(float target) {
     uint32_t bits = rlvc_bits_of(target + 0.0f);
@@ -41,7 +42,7 @@ static float bellman_target(const rlvc_target_input *input, uint32_t slot) {
 
 uint32_t rlvc_target_step(rlvc_target_cursor *target, const rlvc_target_input *input,
                           uint32_t budget) {
-    if (input->kind == RLVC_CRITERION_RETURNS) {
+    if (RLVC_BY_RETURNS(input->kind)) {
         uint32_t used = rlvc_return_step(&target->window, &input->returns, budget);
         target->done = target->window.done;
         target->defined = target->window.defined;

@@ -46,4 +46,10 @@ void rlvc_model_single(rlvc_model_cursor *model, const rlvc_target_input *input,
  * input. */
 void rlvc_model_mark(const rlvc_model_cursor *model, uint32_t word[8]);
 
+/* Adds the values of the classes that transitions [*at, end) lead to, of at most `budget` (>= 1) of
+ * them. *at becomes the next one. A terminated episode leads to the value 0.
+ * @return how many were added. O(budget). */
+uint32_t rlvc_model_add(rlvc_sum *sum, const rlvc_transition *transition, uint32_t *at,
+                        uint32_t end, uint32_t budget, const float *value);
+
 #endif

@@ -2,6 +2,8 @@
 /* Value iteration and policy iteration: see value_iteration.h. */
 #include "value_iteration.h"
 
+#include "model.h"
+
 #include "../base/float_math.h"
 #include "../samples/replay.h"
 #include "../base/solver_select.h"
@@ -76,28 +78,13 @@ static void back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
         end_sweep(solver, input);
 }
 
-/* Adds the values of up to `budget` of the pair's transitions that are left. */
-static uint32_t add_transitions(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
-                                const rlvc_values *values, uint32_t end, uint32_t budget) {
-    rlvc_sum sum = solver->sum;
-    uint32_t from = solver->transition;
-    uint32_t to = end - from < budget ? end : from + budget;
-    for (uint32_t i = from; i < to; i++) {
-        uint32_t next = input->transition[i].next; /* nothing is to be had after the end */
-        rlvc_sum_add(&sum, next == RLVC_NO_CLASS ? 0.0f : values->value[next],
-                     input->transition[i].count);
-    }
-    solver->sum = sum;
-    solver->transition = to;
-    return to - from;
-}
-
 /* Part of a sweep: adds transitions, or completes a pair. */
 static uint32_t sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                       rlvc_values *values, uint32_t budget) {
     size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
     if (solver->transition < values->begin.transition[pair + 1u])
-        return add_transitions(solver, input, values, values->begin.transition[pair + 1u], budget);
+        return rlvc_model_add(&solver->sum, input->transition, &solver->transition,
+                              values->begin.transition[pair + 1u], budget, values->value);
     if (values->begin.transition[pair] < values->begin.transition[pair + 1u])
         values->q[pair] = values->pair.reward[pair] + input->discount * rlvc_sum_mean(&solver->sum);
     else if (values->tried[pair] == 0)

@@ -39,11 +39,13 @@
 
 #include "../base/assert.h"
 #include "../base/popcount.h"
+#include "../base/solver_select.h"
 #include "../stats/score.h"
 #include "rlvc/agent.h"
 
 enum { COUNT, PROBE, CHUNK, BLOCK, BITS, RANK };
 
+#define HAS_RANKS RLVC_HAS_SCORE(RLVC_SCORE_RANKS)
 #define BLOCK_WORDS 16u /* the longest block */
 #define BLOCK_LEVEL 4u  /* its logarithm */
 #define ACTION_MAX RLVC_BUDGET_MIN
@@ -148,7 +150,7 @@ static uint32_t count_step(rlvc_cutpoint_cursor *scan, uint32_t budget) {
     scan->best.present += present;
     scan->word = end;
     if (end == words) {
-        scan->phase = scan->by_ranks ? RANK : PROBE;
+        scan->phase = HAS_RANKS && scan->by_ranks ? RANK : PROBE;
         scan->word = 0;
         scan->done = scan->best.present == 0 || scan->best.present == scan->count;
         set_bar(scan, scan->bar);
@@ -313,7 +315,7 @@ uint32_t rlvc_cutpoint_step(rlvc_cutpoint_cursor *scan, uint32_t budget) {
             left -= chunk_step(scan);
         else if (scan->phase == BLOCK)
             left -= block_step(scan);
-        else if (scan->phase == BITS)
+        else if (!HAS_RANKS || scan->phase == BITS)
             left -= bits_step(scan);
         else
             left -= rank_step(scan);

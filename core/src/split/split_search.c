@@ -9,9 +9,14 @@
 #include "split_search.h"
 
 #include "../base/float_math.h"
+#include "../base/popcount.h"
+#include "../base/solver_select.h"
 #include "rlvc/chi2.h"
 #include "../stats/score.h"
 #include <string.h>
+
+/* Decided when the library is built, where it has one score. */
+#define BY_RANKS(input) (RLVC_HAS_SCORE(RLVC_SCORE_RANKS) && (input)->by_ranks)
 
 enum {
     SORT,
@@ -30,14 +35,14 @@ enum {
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
                           uint32_t feature_bytes) {
     /* All slots hold an interaction when the newest terminated. */
-    uint64_t slots = (uint64_t)config->capacity + 1u;
-    uint64_t words = (slots + 63u * (uint64_t)config->actions) / 64u;
-    uint64_t columns = (words | 1u) * config->features_at_once * sizeof *space->columns;
-    if (columns < RLVC_SORT_SCRATCH_BYTES)
-        columns = RLVC_SORT_SCRATCH_BYTES;
+    uint32_t slots = config->capacity + 1u;
+    uint32_t words = (slots + 63u * config->actions) / 64u;
+    uint32_t columns = (words | 1u) * config->features_at_once; /* words of all columns */
+    if (columns < RLVC_SORT_SCRATCH_BYTES / sizeof *space->columns)
+        columns = RLVC_SORT_SCRATCH_BYTES / sizeof *space->columns;
     space->rows.sample = rlvc_arena_carve(arena, slots, sizeof *space->rows.sample);
     space->bits.cutpoints = rlvc_arena_carve(arena, words, sizeof *space->bits.cutpoints);
-    space->columns = rlvc_arena_carve(arena, 1, columns);
+    space->columns = rlvc_arena_carve(arena, columns, sizeof *space->columns);
     space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
     space->per_action = rlvc_arena_carve(arena, 1, feature_bytes);
     space->pooled = rlvc_arena_carve(arena, 1, feature_bytes);
@@ -140,7 +145,7 @@ static void end_marking(rlvc_split_cursor *search, const rlvc_split_input *input
 /* Goes on to the next group. */
 static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input) {
     rlvc_group *group = &input->space->group[search->action];
-    if (input->by_ranks && group->cuts > 0)
+    if (BY_RANKS(input) && group->cuts > 0)
         group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
     search->groups += group->cuts > 0;
     search->samples += group->cuts > 0 ? size_of(group) : 0;
@@ -160,15 +165,12 @@ static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, u
     uint32_t from = search->at, left = size_of(group) - from;
     uint32_t to = from + (left < budget ? left : budget);
     for (uint32_t at = from; at < to; at++) {
-        if (at % 64u == 0)
-            cuts[at / 64u] = 0;
-        if (at == 0) {
+        int distinct =
+            at > 0 && rlvc_target_distinct(input->aliasing, search->lowest, sample[at].key);
+        rlvc_bit_append(cuts, at, distinct);
+        group->cuts += (uint32_t)distinct;
+        if (at == 0 || distinct)
             search->lowest = sample[at].key;
-        } else if (rlvc_target_distinct(input->aliasing, search->lowest, sample[at].key)) {
-            cuts[at / 64u] |= (uint64_t)1 << at % 64u;
-            group->cuts++;
-            search->lowest = sample[at].key;
-        }
     }
     search->at = to;
     if (to == size_of(group))
@@ -238,9 +240,7 @@ static rlvc_status detect_each(rlvc_split_cursor *search, const rlvc_split_input
         if (status != RLVC_OK)
             return status;
         uint64_t *column = rlvc_workspace_column(input->space, search->words, j);
-        uint64_t *word = &column[group->word + search->at / 64u];
-        uint64_t before = search->at % 64u == 0 ? 0 : *word;
-        *word = before | (uint64_t)(present != 0) << search->at % 64u;
+        rlvc_bit_append(column + group->word, search->at, present);
     }
     search->at++;
     *used = search->block;
@@ -280,7 +280,7 @@ static rlvc_per_action weigh(const rlvc_split_cursor *search, const rlvc_split_i
     const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
                               count - cut->below - above};
     rlvc_per_action weighed = {0.0f, cut->score, table, search->action};
-    weighed.evidence = input->by_ranks ? cut->score : cut->score * (float)count;
+    weighed.evidence = BY_RANKS(input) ? cut->score : cut->score * (float)count;
     return weighed;
 }
 
@@ -308,7 +308,7 @@ static void close_column(rlvc_split_cursor *search, const rlvc_split_input *inpu
         rlvc_per_action weighed = weigh(search, input, found, size_of(group));
         pool->evidence += weighed.evidence;
         pool->statistic +=
-            input->by_ranks ? weighed.evidence : rlvc_table_statistic(&weighed.table);
+            BY_RANKS(input) ? weighed.evidence : rlvc_table_statistic(&weighed.table);
         keep_best_per_action(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
@@ -404,7 +404,7 @@ static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
         return 1;
     }
     if (search->phase == TEST_PER_ACTION) {
-        if (input->by_ranks)
+        if (BY_RANKS(input))
             (void)rlvc_chi2_survival(search->per_action.score, 1, NULL, &search->per_action_log_p);
         else
             search->per_action_log_p = rlvc_table_log_p(&search->per_action.table);

@@ -87,8 +87,7 @@ static rlvc_status fill(rlvc_successor_cursor *search, const rlvc_split_input *i
         rlvc_status status = exhibits(search, input, group->begin + at, &present);
         if (status != RLVC_OK)
             return status;
-        uint64_t before = at % 64u == 0 ? 0 : word[at / 64u];
-        word[at / 64u] = before | (uint64_t)(present != 0) << at % 64u;
+        rlvc_bit_append(word, at, present);
         search->at++;
     }
     if (search->at < size)

@@ -94,22 +94,24 @@ static int pending_is_sound(const rlvc_agent *agent) {
     return 1;
 }
 
+static int counts_are_sound(const rlvc_agent *agent) {
+    const rlvc_learner *learner = &agent->learner;
+    const uint32_t classes = agent->tree.classes;
+    uint32_t made = rlvc_phase_splits(learner->phase) ? learner->made : 0;
+    return learner->at <= last_at(agent) && learner->walk.node <= 2u * (classes - 1u) &&
+           learner->made <= classes && learner->splits < classes &&
+           learner->classes == classes - made;
+}
+
 int rlvc_cursor_marks_check(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
     if (!phase_is_possible(agent) || !pending_is_sound(agent))
         return 0;
     if (learner->phase == RLVC_PHASE_IDLE)
         return agent->replay.frozen == 0;
-    int searching = rlvc_phase_splits(learner->phase);
-    if (learner->at > last_at(agent) || learner->walk.node > 2u * (agent->tree.classes - 1u))
-        return 0;
-    if (learner->made > agent->tree.classes || learner->splits >= agent->tree.classes)
-        return 0;
-    if (learner->classes != agent->tree.classes - (searching ? learner->made : 0))
-        return 0;
-    if (learner->searching > (searching && learner->at < learner->classes))
-        return 0;
-    return database_is_sound(agent) && labels_are_sound(agent);
+    int may_search = rlvc_phase_splits(learner->phase) && learner->at < learner->classes;
+    return counts_are_sound(agent) && learner->searching <= may_search &&
+           database_is_sound(agent) && labels_are_sound(agent);
 }
 
 /* ------------------------------------------------------------------ the way back */

@@ -303,39 +303,36 @@ static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
     return known ? RLVC_OK : RLVC_E_MISMATCH;
 }
 
-static int same_float(float a, float b) {
-    return a <= b && a >= b;
-}
-
-static int same_config(const rlvc_config *a, const rlvc_config *b) {
-    return a->actions == b->actions && a->capacity == b->capacity && a->classes == b->classes &&
-           a->features_at_once == b->features_at_once && a->min_samples == b->min_samples &&
-           a->max_sweeps == b->max_sweeps && a->seed == b->seed && a->criterion == b->criterion &&
-           a->score == b->score && a->solver == b->solver && a->continuing == b->continuing &&
-           a->successors == b->successors && a->explore == b->explore &&
-           same_float(a->discount, b->discount) && same_float(a->epsilon, b->epsilon) &&
-           same_float(a->alpha, b->alpha) && same_float(a->alpha_known, b->alpha_known) &&
-           same_float(a->tolerance, b->tolerance) && same_float(a->learning_rate, b->learning_rate);
-}
-
-/* Does everything that was loaded hold together? */
-static int is_sound(rlvc_agent *agent) {
-    const rlvc_replay *replay = &agent->replay;
+/* Is every slot one that rlvc_replay_append makes? */
+static int flags_are_sound(const rlvc_replay *replay) {
     for (uint32_t position = 0; position < replay->count; position++) {
         uint8_t flags = replay->flags[rlvc_replay_slot(replay, position)];
         if (flags > (RLVC_SLOT_STORED | RLVC_SLOT_EXPLOITED | RLVC_SLOT_TERMINATED) ||
             (flags != 0 && !(flags & RLVC_SLOT_STORED)))
             return 0;
     }
-    for (uint32_t c = 0; c < agent->tree.classes; c++) {
-        for (uint32_t a = 0; a < agent->config.actions; a++) {
-            if (!is_number(agent->values.pair.reward[rlvc_values_pair(&agent->values, c, a)]))
-                return 0;
-        }
+    return 1;
+}
+
+static int rewards_are_numbers(const rlvc_agent *agent) {
+    const uint32_t pairs = agent->tree.classes * agent->config.actions;
+    for (uint32_t pair = 0; pair < pairs; pair++) {
+        if (!is_number(agent->values.pair.reward[pair]))
+            return 0;
     }
+    return 1;
+}
+
+static int counters_are_sound(const rlvc_agent *agent) {
     return agent->run <= agent->step && agent->last_split <= agent->step &&
            agent->sweeps <= agent->config.max_sweeps && is_number(agent->residual) &&
-           agent->interactions >= replay->stored && rlvc_agent_check(agent) == RLVC_OK &&
+           agent->interactions >= agent->replay.stored;
+}
+
+/* Does everything that was loaded hold together? */
+static int is_sound(rlvc_agent *agent) {
+    return flags_are_sound(&agent->replay) && rewards_are_numbers(agent) &&
+           counters_are_sound(agent) && rlvc_agent_check(agent) == RLVC_OK &&
            rlvc_cursor_marks_check(agent);
 }
 
@@ -375,7 +372,8 @@ rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void
     if (status != RLVC_OK)
         return status;
     if (info.percept_bytes != domain->percept_bytes ||
-        info.feature_bytes != domain->feature_bytes || !same_config(&info.config, config))
+        info.feature_bytes != domain->feature_bytes ||
+        memcmp(&info.config, config, sizeof *config) != 0)
         return RLVC_E_MISMATCH;
     rlvc_agent *made;
     status = rlvc_agent_init(config, domain, memory, bytes, &made);

@@ -7,9 +7,9 @@
 
 void rlvc_tree_carve(rlvc_tree *tree, rlvc_arena *arena, uint32_t classes_max,
                      uint32_t feature_bytes) {
-    tree->node = rlvc_arena_carve(arena, 2u * (uint64_t)classes_max - 1u, sizeof *tree->node);
-    tree->split = rlvc_arena_carve(arena, (uint64_t)classes_max - 1u, sizeof *tree->split);
-    tree->feature = rlvc_arena_carve(arena, (uint64_t)classes_max - 1u, feature_bytes);
+    tree->node = rlvc_arena_carve(arena, 2u * classes_max - 1u, sizeof *tree->node);
+    tree->split = rlvc_arena_carve(arena, classes_max - 1u, sizeof *tree->split);
+    tree->feature = rlvc_arena_carve(arena, classes_max - 1u, feature_bytes);
     tree->classes_max = classes_max;
     tree->feature_bytes = feature_bytes;
 }

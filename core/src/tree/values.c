@@ -3,7 +3,7 @@
 #include "values.h"
 
 void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config *config) {
-    uint64_t pairs = (uint64_t)config->classes * config->actions;
+    uint32_t pairs = config->classes * config->actions;
     values->q = rlvc_arena_carve(arena, pairs, sizeof *values->q);
     values->pair.reward = rlvc_arena_carve(arena, pairs, sizeof *values->pair.reward);
     values->tried = rlvc_arena_carve(arena, pairs, sizeof *values->tried);
