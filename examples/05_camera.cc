@@ -63,7 +63,9 @@ class Source {
     explicit Source(const std::string &name) : name_(name) {
         if (fs::is_directory(name)) {
             for (const fs::directory_entry &entry : fs::directory_iterator(name)) {
-                files_.push_back(entry.path().string());
+                if (entry.is_regular_file()) {
+                    files_.push_back(entry.path().string());
+                }
             }
             std::sort(files_.begin(), files_.end());
             folder_ = true;

@@ -18,6 +18,7 @@ import zlib
 
 import numpy as np
 import pytest
+from conftest import without_vision
 
 import rlvc
 from rlvc import __main__ as command
@@ -92,6 +93,17 @@ def test_what_is_read_is_a_file(tmp_path, kind):
     for other in ("/dev/zero", tmp_path):
         with pytest.raises(errors.Error):
             READERS[kind](other)
+
+
+@pytest.mark.skipif(bool(without_vision()), reason="the package was made without vision")
+def test_pictures_and_metrics_are_files(tmp_path):
+    from rlvc import objects, vision
+
+    os.mkfifo(tmp_path / "a.png")
+    with pytest.raises(errors.PictureError, match=r"a\.png: not a regular file"):
+        objects.find(tmp_path)
+    with pytest.raises(errors.StoreError, match="FIFO"):
+        vision.Metric.load(tmp_path / "a.png")
 
 
 def test_what_is_written_is_a_file(agent, tmp_path):

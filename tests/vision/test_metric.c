@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Metrics: fitted, kept as text, refused. */
+#define _POSIX_C_SOURCE 200809L /* mkfifo, symlink */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "percepts.h"
 
@@ -355,6 +359,36 @@ static void test_files(void **state) {
     rlvc_metric_destroy(metric);
 }
 
+/* A FIFO would make the caller wait, and a link may lead anywhere. */
+static void test_what_is_no_file(void **state) {
+    (void)state;
+    rlvc_vision_error error;
+    rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
+    rlvc_metric *metric = fitted(&config, RLVC_METRIC_PLAIN), *read = NULL;
+    static const char fifo[] = "test_metric_fifo", link[] = "test_metric_link",
+                      path[] = "test_metric_mode";
+    remove(fifo);
+    remove(link);
+    assert_int_equal(mkfifo(fifo, 0600), 0);
+    assert_int_equal(symlink(path, link), 0);
+    assert_int_equal(rlvc_metric_load(fifo, &read, &error), RLVC_VISION_E_FILE);
+    assert_int_equal(rlvc_metric_save(metric, fifo, &error), RLVC_VISION_E_FILE);
+    assert_int_equal(rlvc_metric_save(metric, link, &error), RLVC_VISION_E_FILE);
+    assert_non_null(strstr(error.text, link));
+    assert_int_equal(rlvc_metric_save(metric, "/dev/null", &error), RLVC_VISION_E_FILE);
+
+    struct stat there;
+    assert_ok(rlvc_metric_save(metric, path, &error));
+    assert_int_equal(chmod(path, 0604), 0);
+    assert_ok(rlvc_metric_save(metric, path, &error));
+    assert_int_equal(stat(path, &there), 0);
+    assert_int_equal(there.st_mode & 0777, 0604);
+    remove(fifo);
+    remove(link);
+    remove(path);
+    rlvc_metric_destroy(metric);
+}
+
 static void refuse_text(const char *text, size_t bytes) {
     rlvc_vision_error error;
     rlvc_metric *metric = NULL;
@@ -552,6 +586,7 @@ int main(void) {
         cmocka_unit_test(test_a_world_without_colour),
         cmocka_unit_test(test_text_comes_back),
         cmocka_unit_test(test_files),
+        cmocka_unit_test(test_what_is_no_file),
         cmocka_unit_test(test_cut_texts_refused),
         cmocka_unit_test(test_values_refused),
         cmocka_unit_test(test_other_descriptors_refused),

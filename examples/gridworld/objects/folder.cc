@@ -66,6 +66,9 @@ std::vector<File> find_files(const std::string &folder) {
 cv::Mat read_picture(const fs::path &path) {
     cv::Mat picture;
     std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        throw std::runtime_error(path.string() + ": not a regular file"); // a FIFO would wait
+    }
     if (fs::file_size(path, error) == 0 && !error) {
         throw std::runtime_error(path.string() + ": an empty file");
     }

@@ -32,11 +32,17 @@ from ..errors import PerceptError, SpaceError
 Columns = npt.NDArray[Any]
 
 
-def _binary(values: Any, starts: Any, widths: Sequence[int]) -> Columns:
-    """Numbers [n, d] in binary, with `widths` bits each, lowest first: [n, sum(widths)]."""
-    numbers = (np.asarray(values, np.int64) - starts).reshape(-1, len(widths))
-    columns = [numbers[:, i] >> bit & 1 for i, width in enumerate(widths) for bit in range(width)]
-    return np.stack(columns, axis=1).astype(np.bool_)
+def _binary(starts: Any, widths: Sequence[int]) -> Callable[[Any], Columns]:
+    """From numbers [n, d] to their bits [n, sum(widths)], lowest first."""
+    index = np.repeat(np.arange(len(widths)), widths)
+    shift = np.concatenate([np.arange(width) for width in widths])
+
+    def columns(values: Any) -> Columns:
+        numbers = (np.asarray(values, np.int64) - starts).reshape(-1, len(widths))
+        bits: Columns = (numbers[:, index] >> shift & 1).astype(np.bool_)
+        return bits
+
+    return columns
 
 
 def _width(count: int) -> int:
@@ -58,6 +64,7 @@ class _Part:
         self.names = names
         self.columns = columns
         self.shape = shape
+        self.single = all(size == 1 for size in shape)
         self.accepts = accepts
 
     def of(self, observation: Any) -> Any:
@@ -74,7 +81,7 @@ class _Part:
         value = self.of(observation)
         try:
             array = np.asarray(value)
-            if array.size == 1 and np.prod(self.shape, dtype=int) == 1:
+            if self.single and array.size == 1:
                 array = array.reshape(self.shape)
             if self.accepts(array):
                 columns: Columns = self.columns(array[None])[0]
@@ -83,7 +90,7 @@ class _Part:
             if isinstance(error, PerceptError):
                 raise
         where = _prefix(self.path) or "observation"
-        raise PerceptError(f"{where}: {value!r:.80} is not of the environment's observation space")
+        raise PerceptError(f"{where}: {value!r:.80} is not an element of the observation space")
 
 
 def _prefix(path: tuple[Any, ...]) -> str:
@@ -122,9 +129,6 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
         return [_box_part(space, path)]
     from gymnasium import spaces
 
-    def whole(value: Columns) -> bool:
-        return value.dtype.kind in "biu" and bool(space.contains(value.astype(np.int64)))
-
     label = _prefix(path)
     if isinstance(space, spaces.Dict):
         inner = [((*path, key), sub) for key, sub in space.spaces.items()]
@@ -134,7 +138,16 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
     if isinstance(space, spaces.Discrete):
         width, start = _width(int(space.n)), int(space.start)
         names = [f"{label or 'number'} bit {bit}" for bit in range(width)]
-        return [_Part(path, names, lambda v: _binary(v, start, [width]), (), whole)]
+        beyond = start + int(space.n)
+        return [
+            _Part(
+                path,
+                names,
+                _binary(start, [width]),
+                (),
+                lambda v: v.dtype.kind in "biu" and start <= int(v) < beyond,
+            )
+        ]
     if isinstance(space, spaces.MultiDiscrete):
         counts, starts = np.ravel(space.nvec), np.ravel(space.start)
         widths = [_width(int(count)) for count in counts]
@@ -144,10 +157,15 @@ def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
             for bit in range(width)
         ]
 
-        def multi(values: Any) -> Columns:
-            return _binary(np.asarray(values).reshape(-1, len(widths)), starts, widths)
-
-        return [_Part(path, names, multi, space.shape, whole)]
+        return [
+            _Part(
+                path,
+                names,
+                _binary(starts, widths),
+                space.shape,
+                lambda v: v.dtype.kind in "biu" and bool(space.contains(v.astype(np.int64))),
+            )
+        ]
     if isinstance(space, spaces.MultiBinary):
         size = int(np.prod(space.shape))
         names = [f"{label}[{i}]" if label else f"bit {i}" for i in range(size)]
