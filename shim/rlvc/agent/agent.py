@@ -468,7 +468,15 @@ class Agent(Queries):
         Raises
         ------
         StoreError
-            The file cannot be written.
+            The file cannot be written, or is a link, a folder, a FIFO or a device.
+        ConfigError
+            ``names`` is not a list of str.
+
+        Notes
+        -----
+        The new file replaces the old one at once, when all of it is on the disk, and has its
+        permissions. This also removes what a process that was killed while it saved to this file
+        left in the folder. Time is O(capacity + classes); memory is that of three snapshots.
         """
         write_file(file, self, names)
 
