@@ -135,7 +135,7 @@ MODULE = """
     gymnasium.register("Lake-v0", Lake)
 """
 FAULTS = {
-    "os.kill(os.getpid(), signal.SIGINT)": (130, "rlvc: interrupted: this is what was learnt until then\n"),
+    "os.kill(os.getpid(), signal.SIGINT)": (130, "rlvc: interrupted: the result is incomplete\n"),
     "raise ZeroDivisionError('here')": (1, "rlvc: the environment raised ZeroDivisionError: here\n"),
     "return 0, None, False, False, {}": (
         1, "rlvc: interaction 449, episode 89: reward: None is not a number: give a float\n"),
