@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The library's calls over arrays, so that Python pays for one call and not for each element. */
+/* Loops over arrays: Python makes one call instead of one for each element. */
 #include "shim.h"
 
 #include <string.h>

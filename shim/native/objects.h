@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The objects of the Tiled Gridworld (examples/gridworld/objects) for the Python package: pictures
- * in, pixels out. A library of its own, since it reads files by OpenCV; shim/rlvc/objects.py
- * declares it. */
+/* The objects of the Tiled Gridworld (examples/gridworld/objects) for the Python package. A
+ * separate library, because it needs OpenCV. shim/rlvc/objects.py uses it. */
 #ifndef RLVC_SHIM_OBJECTS_H
 #define RLVC_SHIM_OBJECTS_H
 
@@ -16,24 +15,24 @@ extern "C" {
 
 typedef struct rlvc_shim_objects rlvc_shim_objects;
 
-/* Finds objects that are there from each of `count` angles: those of a folder, or `wanted` rendered
- * ones.
- * @param folder  UTF-8; empty: rendered
- * @param wanted  at least so many
- * @param text    gets what was wrong, in `room` bytes; longer text is cut
+/* Reads the objects of a folder that have a picture from each of `count` angles, or renders
+ * `wanted` objects.
+ * @param folder  UTF-8; empty: render
+ * @param wanted  the minimum number of objects
+ * @param text    receives the error message, cut to `room` bytes
  * @return 0, and *objects is new; -1, and *objects is unchanged */
 RLVC_API int rlvc_shim_objects_find(const char *folder, const int32_t *angles, uint32_t count,
                                     uint32_t wanted, rlvc_shim_objects **objects, char *text,
                                     size_t room);
 
-/* How many there are, and the height and width of a picture. */
+/* The number of objects, and the height and width of a picture. */
 RLVC_API void rlvc_shim_objects_size(const rlvc_shim_objects *objects, uint32_t *count,
                                      uint32_t *height, uint32_t *width);
 
-/* The name of an object; UTF-8, as long as the objects live. */
+/* The name of an object in UTF-8, valid as long as the objects. */
 RLVC_API const char *rlvc_shim_objects_name(const rlvc_shim_objects *objects, uint32_t index);
 
-/* Copies a picture: red first, also of grey ones.
+/* Copies a picture, red first; grey pictures become R = G = B.
  * @param pixels [height][width][3] */
 RLVC_API void rlvc_shim_objects_copy(const rlvc_shim_objects *objects, uint32_t index,
                                      int32_t angle, uint8_t *pixels);

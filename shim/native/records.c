@@ -39,7 +39,7 @@ static void take(rlvc_shim_records *records, const rlvc_log_record *record,
         memcpy(current, record->percept, bytes);
 }
 
-/* What the writer left off in the middle of was cut short from outside. */
+/* An episode in which the writer stopped counts as truncated. */
 static void cut(rlvc_shim_records *records, int open) {
     if (open && records->ends)
         records->ends[records->interactions - 1] = RLVC_TRUNCATED;

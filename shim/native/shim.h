@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the Python package needs of C besides the library: loops over arrays, and the layout of the
- * structs as this compiler made it. Only the public interface is used.
+/* The C part of the Python package: loops over arrays, and the layout of the structs as compiled.
+ * It uses only the public interface of the library.
  *
  * The functions are exported with the library's own; shim/rlvc/_native/bindings.py declares them.
  * Pointers are trusted: the package checks its arrays before it calls. */
@@ -11,8 +11,8 @@
 #include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 
-/* An entry of a table that ends with a null name: the size of a struct ("rlvc_choice"), or where a
- * field of it begins ("rlvc_choice.action"). */
+/* An entry of the table of layouts: the size of a struct ("rlvc_choice"), or the offset of a field
+ * ("rlvc_choice.action"). The table ends with a null name. */
 typedef struct rlvc_shim_entry {
     const char *name;
     size_t value;
@@ -20,8 +20,8 @@ typedef struct rlvc_shim_entry {
 
 RLVC_API const rlvc_shim_entry *rlvc_shim_layout(void);
 
-/* The loops below stop at the first element that fails and answer its status; *done is its index,
- * or `count`. What was done before stands. `bytes` is the size of a percept's record. */
+/* The loops below stop at the first element that fails and return its status. *done is its index,
+ * or `count`. Elements before it stay processed. `bytes` is the size of a percept. */
 
 /* rlvc_predict for each of `count` percepts.
  * @param classes, actions [count], each optional */
@@ -47,53 +47,52 @@ typedef struct rlvc_shim_log {
     uint32_t resume; /* 1: the first goes on from the agent's percept; 0: it begins an episode */
 } rlvc_shim_log;
 
-/* rlvc_begin and rlvc_act for each percept, that of each environment of a vector: fills
- * log->choices. Looks at percepts, count and bytes alone. */
+/* rlvc_begin and rlvc_act for each percept of a vector of environments: fills log->choices. Reads
+ * only percepts, count and bytes. */
 RLVC_API rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
 
-/* rlvc_observe for each interaction of a log. Where one goes on and the next begins at the very
- * percept that it led to, they are of one episode; else the next one begins an episode. All are
- * looked at before the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was done. */
+/* rlvc_observe for each interaction of a log. Two successive interactions belong to one episode if
+ * the first goes on and its next percept equals the percept of the second. All are checked before
+ * the first is stored: with RLVC_E_RANGE and RLVC_E_REWARD nothing was stored. */
 RLVC_API rlvc_status rlvc_shim_observe(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done);
 
-/* A log of interactions as rlvc/log.h has it, as arrays of `interactions` elements. */
+/* A log of rlvc/log.h as arrays of `interactions` elements. */
 typedef struct rlvc_shim_records {
     unsigned char *percepts, *next; /* `percept_bytes` each; next is 0 where terminated */
     rlvc_choice *choices;
     float *rewards;
-    uint8_t *ends; /* an interaction that the writer left off after is truncated */
+    uint8_t *ends; /* truncated where the writer stopped within an episode */
     size_t interactions;
-    size_t fault_at; /* the byte from which on something is wrong */
+    size_t fault_at; /* the offset of the fault */
     uint32_t percept_bytes, actions;
-    uint32_t torn; /* writers, or the end of the log, that left off in the middle of a record */
+    uint32_t torn; /* number of records that were cut short */
     uint32_t reserved;
 } rlvc_shim_records;
 
 #define RLVC_SHIM_RECORDS_PERCEPT (1u << 20) /* bytes of the largest percept */
 #define RLVC_SHIM_RECORDS_ROOM (RLVC_SHIM_RECORDS_PERCEPT + 13u)
 
-/* Reads a log of `count` bytes: everything but the arrays of *records, and these too, unless
- * choices and ends are null. A record cut short is passed over if nothing or a header comes after
- * it.
+/* Reads a log of `count` bytes into *records; also into its arrays, unless choices and ends are
+ * null. A record that was cut short is skipped if it is the last one or a header follows.
  * @param buffer  [RLVC_SHIM_RECORDS_ROOM]
  * @param current [RLVC_SHIM_RECORDS_PERCEPT]
- * @return RLVC_OK; RLVC_E_DAMAGED: bytes or records are missing in between; RLVC_E_VERSION,
- *         RLVC_E_MISMATCH: a header is of another version, or of other percepts than the first */
+ * @return RLVC_OK; RLVC_E_DAMAGED: bytes or records are missing; RLVC_E_VERSION,
+ *         RLVC_E_MISMATCH: a header has another version, or other percepts than the first */
 RLVC_API rlvc_status rlvc_shim_records_read(const unsigned char *bytes, size_t count,
                                             unsigned char *buffer, unsigned char *current,
                                             rlvc_shim_records *records);
 
-/* The last solution, as tables.
+/* The last solution as tables.
  * @param q, samples    [classes][actions]
  * @param values, policy [classes] */
 RLVC_API rlvc_status rlvc_shim_tables(const rlvc_agent *agent, uint32_t classes, uint32_t actions,
                                       float *q, uint32_t *samples, float *values, uint32_t *policy);
 
-/* Text that the library writes. */
+/* Text written by the library. */
 typedef struct rlvc_shim_text {
     char *bytes;
     size_t room;
-    size_t size; /* of all of the text; what is beyond `room` was not kept */
+    size_t size; /* of the whole text; only the first `room` bytes are kept */
 } rlvc_shim_text;
 
 /* Appends to the rlvc_shim_text that `ctx` points to: an rlvc_write.
@@ -139,13 +138,13 @@ RLVC_API rlvc_status rlvc_shim_python_raise(rlvc_shim_python *methods);
 /* Drops the exception that was kept, if there is one: to be called with the interpreter's lock. */
 RLVC_API void rlvc_shim_python_forget(rlvc_shim_python *methods);
 
-/* Nothing, with the arguments of rlvc_act and rlvc_observe: what a call from Python costs at
- * least. */
+/* Do nothing, with the arguments of rlvc_act and rlvc_observe: the minimum cost of a call from
+ * Python. */
 RLVC_API rlvc_status rlvc_shim_empty_act(rlvc_agent *agent, rlvc_choice *choice);
 RLVC_API rlvc_status rlvc_shim_empty_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
                                              const void *next, uint8_t end);
 
-/* The maze, for the registered environment: gridworld.h describes these. */
+/* The maze for the environments: gridworld.h documents these functions. */
 RLVC_API const gridworld_maze *rlvc_shim_sutton(void);
 RLVC_API int rlvc_shim_maze_parse(gridworld_maze *maze, const char *text, size_t bytes,
                                   unsigned char *cells, size_t room, gridworld_error *error);

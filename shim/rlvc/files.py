@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Files that are read only if they are files, and that are written as a whole or not at all.
+"""Reads regular files only, and writes files atomically.
 
-A new file is written without a name where the system can do that, else under a name that nobody can
-foresee. When all of it is on the disk it gets its name, and so replaces the old one at once.
-Whoever writes holds a lock on the new file. A process that is killed loses its lock: the next one
-that saves, or loads an agent, removes what it left behind.
+A new file is written without a name if the system supports that, else under a random name. When all
+of it is on the disk, it is renamed to its final name, which replaces the old file in one step. The
+writer holds a lock on the new file. If the writer is killed, the lock is released: the next process
+that saves or loads an agent removes the incomplete file.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _FDS = "/proc/self/fd"  # where the system shows files without a name
 
 
 def _need_file(mode: int) -> None:
-    """Refuse what is no regular file."""
+    """Raise OSError unless the mode is that of a regular file."""
     if not stat.S_ISREG(mode):
         kind = next((kind for test, kind in _KINDS if test(mode)), "a device")
         raise OSError(errno.EINVAL, f"it is {kind}, not a file")
@@ -42,9 +42,9 @@ def _name(path: str | Path) -> str:
     try:
         name = os.fsdecode(path)
     except TypeError:
-        raise OSError(errno.EINVAL, "the name of a file is wanted") from None
+        raise OSError(errno.EINVAL, "not the name of a file") from None
     if "\0" in name or not name:
-        raise OSError(errno.EINVAL, "this is no name of a file")
+        raise OSError(errno.EINVAL, "not the name of a file")
     return name
 
 
@@ -62,7 +62,7 @@ def open_file(path: str | Path) -> BinaryIO:
     Raises
     ------
     OSError
-        It cannot be opened, or is a folder, a FIFO, a device or the like; nothing waits for one.
+        It cannot be opened, or is not a regular file. It never waits for a FIFO.
     """
     name = _name(path)
     _need_file(os.stat(name).st_mode)  # opening a device may have effects
@@ -72,7 +72,7 @@ def open_file(path: str | Path) -> BinaryIO:
 
 
 def read(path: str | Path) -> bytes:
-    """Give what is in a regular file.
+    """Return the content of a regular file.
 
     Raises
     ------
@@ -84,12 +84,12 @@ def read(path: str | Path) -> bytes:
 
 
 def replace(path: str | Path, content: bytes) -> None:
-    """Write a file, which is there as a whole or as it was before, whenever the process ends.
+    """Write a file atomically: even if the process is killed, the file is old or new as a whole.
 
     Parameters
     ----------
     path : str or Path
-        If the file is there, the new one gets its permissions.
+        If the file exists, the new one gets its permissions.
     content : bytes
 
     Raises
