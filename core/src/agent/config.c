@@ -184,8 +184,8 @@ static const char *message_of(int wrong) {
         [WRONG_ALPHA_KNOWN] = "alpha_known must be within (0, 1]",
         [WRONG_TOLERANCE] = "tolerance must be within (0, 1e12]",
         [WRONG_LEARNING_RATE] = "learning_rate must be within (0, 1]",
-        [WRONG_SUCCESSORS_DOMAIN] = "successors needs a domain with features_max within [1, "
-                                    "features_at_once] and no oracle",
+        [WRONG_SUCCESSORS_DOMAIN] =
+            "successors needs features_max within [1, features_at_once] and no oracle",
         [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
     };
     return messages[wrong];
