@@ -4,12 +4,12 @@
 //     05_camera learn MODEL SOURCE SOURCE ...    frames of source n, from 0, call for action n
 //     05_camera run MODEL SOURCE [--overlay DIR] prints the class and the action of each frame
 //
-// A source is a folder of frames, a video file, or the number of a camera, of which learning takes
-// 200 frames and running all until the user stops it. While learning, each frame is an episode of
-// one interaction: the agent acts at random, and is paid 1 if it did what the source calls for, 0
-// if not. It is never told which action that would have been. The overlay shows the frame's points,
-// and, in another colour, those that the tree's tests found on its way to the class. MODEL.metric
-// and MODEL.agent keep what was learnt.
+// A source is a folder of frames, a video file, or the number of a camera. Learning takes 200
+// frames of a camera; running goes on until the user stops it. While learning, each frame is an
+// episode of one interaction: the agent acts at random, and its reward is 1 if its action is the
+// number of the source, 0 if not. It is never told the right action. The overlay shows the points
+// of the frame and, in another colour, those that match the tests on the way to its class.
+// MODEL.metric and MODEL.agent keep what was learnt.
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -174,8 +174,17 @@ std::string read_file(const std::string &name) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Writes a file under a name that nobody can foresee and then gives it its own, so that there is
-// always the old file or the new one. Links and devices are refused; permissions are kept.
+bool write_all(int file, const std::string &content) {
+    size_t done = 0;
+    for (ssize_t n = 1; n > 0 && done < content.size();) {
+        n = write(file, content.data() + done, content.size() - done);
+        done += n > 0 ? static_cast<size_t>(n) : 0;
+    }
+    return done == content.size();
+}
+
+// Writes a temporary file with an unpredictable name and renames it, so that there is always the
+// old file or the new one. Links and devices are refused; permissions are kept.
 void replace_file(const std::string &name, const std::string &content) {
     struct stat there;
     const bool exists = lstat(name.c_str(), &there) == 0;
@@ -185,11 +194,7 @@ void replace_file(const std::string &name, const std::string &content) {
         throw std::runtime_error(name + ": cannot be written");
     }
     const mode_t mode = exists ? there.st_mode & 07777 : 0644;
-    size_t done = 0;
-    for (ssize_t n = 1; n > 0 && done<content.size(); done += n> 0 ? n : 0) {
-        n = write(file, content.data() + done, content.size() - done);
-    }
-    const bool whole = done == content.size() && fchmod(file, mode) == 0 && fsync(file) == 0;
+    const bool whole = write_all(file, content) && fchmod(file, mode) == 0 && fsync(file) == 0;
     if (close(file) != 0 || !whole || std::rename(beside.c_str(), name.c_str()) != 0) {
         std::remove(beside.c_str());
         throw std::runtime_error(name + ": cannot be written");

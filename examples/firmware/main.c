@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* A robot that learns on a microcontroller: the control loop, and a report.
  *
- *     settings  what is learnt by, and what a tick may take      robot   a tick of the control loop
- *     report    what was learnt                                  port    what the machine tells
+ *     settings  how to learn, and the work of a tick      robot   a tick of the control loop
+ *     report    what was learnt                           port    what depends on the machine
  *
- * What it prints ends in an object of JSON, the same on every machine. Exit status: 0 if no tick
+ * Its output ends with a JSON object, which is the same on every machine. Exit status: 0 if no tick
  * overran and, under the residual criterion, every cell's action is the best one at the end; else
  * 1. */
 #include "port.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A workstation: neither is known. */
+/* A workstation, where neither can be measured. */
 #include "port.h"
 
 void port_begin(void) {

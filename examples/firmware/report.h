@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the robot has learnt, compared with what would be best, as text and as JSON. */
+/* What the robot has learnt, compared with the optimum, as text and as JSON. */
 #ifndef FIRMWARE_REPORT_H
 #define FIRMWARE_REPORT_H
 
@@ -8,8 +8,8 @@
 #define CELLS 54u /* of Sutton's maze */
 #define UNCLEAR 0xffffu
 
-/* What the tree does in each cell. A cell is seen as many percepts, with other distractors each
- * time; what they do not agree upon is UNCLEAR, and a cell is only as good as the worst of them. */
+/* What the tree does in each cell. A cell is looked up with several percepts that differ in their
+ * distractors. Where they disagree the entry is UNCLEAR; the cell counts as the worst of them. */
 struct policy {
     uint16_t class_id[CELLS];
     uint16_t action[CELLS];

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What the robot learns by, and how its control loop is cut: constants, so that all memory is there
- * when the program is linked. The criterion is chosen by FIRMWARE_RETURNS (0 or 1). */
+/* How the robot learns, and the times of its control loop. All are constants, so that memory is
+ * static. The criterion is chosen by FIRMWARE_RETURNS (0 or 1). */
 #ifndef FIRMWARE_SETTINGS_H
 #define FIRMWARE_SETTINGS_H
 
 #include "gridworld.h"
 #include "rlvc/rlvc.h"
 
-#define DISTRACTORS 11u /* bits of a percept that say nothing */
+#define DISTRACTORS 11u /* irrelevant bits of a percept */
 #define PERCEPT_BITS 18u
 #define PERCEPT_BYTES RLVC_BITS_PERCEPT_BYTES(PERCEPT_BITS)
 #define FEATURES_AT_ONCE PERCEPT_BITS

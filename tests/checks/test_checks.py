@@ -93,6 +93,23 @@ def test_sources_misses_a_licence_and_a_room(tree):
     assert "core/src/gone: listed" in output
 
 
+@pytest.mark.parametrize("name, text, fault", [
+    ("maze/maze.h", '#include "../cli/cli.h"\n#include "rlvc/rlvc.h"\n', None),
+    ("main.cc", '#include "maze/maze.h"\n', None),
+    ("cli/more.cc", '#include "../maze/maze.h"\n', 'more.cc:2: room cli includes "../maze/maze.h"'),
+    ("other/other.h", "", "lies in no room"),
+])
+def test_sources_of_run_gridworld(tree, name, text, fault):
+    tree.rooms("base")
+    for file in ("cli/cli.h", "maze/maze.h", "other/readme"):
+        (tree.folder / "tools/run_gridworld" / file).parent.mkdir(parents=True)
+        tree.write(f"tools/run_gridworld/{file}", "")
+    tree.write(f"tools/run_gridworld/{name}", text)
+    status, output = tree.check("sources")
+    assert status == (1 if fault else 0), output
+    assert (fault or " 0 faults") in output
+
+
 @pytest.mark.parametrize("text, fault", [
     ("const int rlvc_table[2] = {1, 2};", None),
     ("int rlvc_f(void); int (*const rlvc_table[1])(void) = {rlvc_f};", "needs rlvc_f"),

@@ -14,6 +14,9 @@ SOURCES = ROOT / "core/src"
 # the rooms before it, and any public header.
 ROOMS = ("base", "stats", "tree", "samples", "split", "solve", "explore", "agent", "export", "policy",
          "store")
+# The rooms of run_gridworld, by the same rule. Files beside them may include any.
+TOOL = ROOT / "tools/run_gridworld"
+TOOL_ROOMS = ("cli", "maze", "report", "tiled")
 # Who may use which headers of C. They are those of a freestanding compiler, and memcpy's.
 C_HEADERS = {"stddef.h", "stdint.h", "float.h", "limits.h", "string.h"}
 C_HEADERS_OF = {"core/src/base/arena.h": {"sanitizer/asan_interface.h"},  # in tests' builds alone
@@ -46,6 +49,20 @@ def fault_of_include(path, room, bracket, header):
     return None
 
 
+def faults_of_tool(path):
+    name, room = path.relative_to(ROOT).as_posix(), path.parent.name
+    if room not in TOOL_ROOMS:
+        yield f"{name}: lies in no room of run_gridworld: {', '.join(TOOL_ROOMS)}"
+        return
+    text = path.read_text(encoding="utf-8")
+    for match in INCLUDE.finditer(text):
+        header = (path.parent / match[2]).resolve()
+        if (header.is_file() and TOOL in header.parents
+                and header.parent.name not in TOOL_ROOMS[:TOOL_ROOMS.index(room) + 1]):
+            yield (f"{name}:{text.count(chr(10), 0, match.start(2)) + 1}: room {room} includes "
+                   f'"{match[2]}", which is not in a room before it')
+
+
 def faults(path):
     name = path.relative_to(ROOT).as_posix()
     text = path.read_text(encoding="utf-8")
@@ -67,11 +84,13 @@ def main():
     files = sorted(path for folder in ("include", "src", "domains")
                    for path in (ROOT / "core" / folder).rglob("*.[ch]"))
     found = [fault for path in files for fault in faults(path)]
+    tool = sorted(path for path in TOOL.glob("*/*") if path.suffix in (".cc", ".h"))
+    found += [fault for path in tool for fault in faults_of_tool(path)]
     found += [f"core/src/{room}: listed in tools/check/sources.py, but holds no file" for room in ROOMS
               if not any(path.parent == SOURCES / room for path in files)]
     for fault in found:
         print(fault, file=sys.stderr)
-    print(f"{len(files)} files of the core looked at, {len(found)} faults")
+    print(f"{len(files)} files of the core and {len(tool)} of run_gridworld looked at, {len(found)} faults")
     return bool(found)
 
 

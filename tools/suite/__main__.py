@@ -27,6 +27,12 @@ def _jobs(args, learners):
     return jobs
 
 
+def _check_writable(path):
+    """End the program, before any run, if the file cannot be written."""
+    if not os.access(os.path.dirname(os.path.abspath(path)), os.W_OK):
+        sys.exit(f"tools/yardstick: --json: cannot write {path}")
+
+
 def _write_json(path, content):
     """Write the whole file, or leave the old one as it was."""
     folder = os.path.dirname(os.path.abspath(path))
@@ -57,8 +63,8 @@ def main():
     """Run the command line; returns the exit status."""
     args = options.parse()
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # treated as Ctrl-C
-    if args.json and not os.access(os.path.dirname(os.path.abspath(args.json)), os.W_OK):
-        sys.exit(f"tools/yardstick: --json: cannot write {args.json}")
+    if args.json:
+        _check_writable(args.json)
     absent = {name: packages for name in args.learners if (packages := LEARNERS[name].missing())}
     learners = [name for name in args.learners if name not in absent]
     jobs = _jobs(args, learners)
