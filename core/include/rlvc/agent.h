@@ -8,8 +8,8 @@
  *     rlvc_predict, rlvc_print, ...                              at any time
  *
  * An agent is used by one thread at a time; distinct agents are independent. Every function here
- * answers RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
- * callback of the agent's own domain calls it; these two are not repeated below. */
+ * returns RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
+ * callback of the agent's own domain calls it. These two are not repeated below. */
 #ifndef RLVC_AGENT_H
 #define RLVC_AGENT_H
 
@@ -26,19 +26,18 @@ typedef struct rlvc_agent rlvc_agent;
 #define RLVC_REWARD_MAX 1e12f
 
 /* config.criterion: which classes are aliased (section 4.2.2). */
-/* truncated discounted returns under exploitation (definitions 1 and 2): the published one; each
- * step k needs a fresh database */
+/* Truncated discounted returns under exploitation (definitions 1 and 2), as published. Each step k
+ * needs a fresh database. */
 #define RLVC_CRITERION_RETURNS 0u
-/* one-step returns r + discount * V(class of s') per class and action, on one growing database:
- * needs far fewer interactions */
+/* One-step returns r + discount * V(class of s') per class and action, on one growing database.
+ * Needs far fewer interactions. */
 #define RLVC_CRITERION_RESIDUAL 1u
 
 /* config.score: how well a feature explains a partition (section 4.2.3). */
 #define RLVC_SCORE_GAIN 0u /* information gain */
-/* no partition, but the rank-sum test of the targets with the feature against those without it
- * (Wilcoxon 1945, Mann and Whitney 1947): one test for a feature, not one for each cutpoint. It
- * sees targets that are shifted, not others. Not for a domain with its own oracle; capacity
- * below 2^21 */
+/* Rank-sum test of the targets with the feature against those without it (Wilcoxon 1945, Mann and
+ * Whitney 1947). One test per feature instead of one per cutpoint. It only detects targets that are
+ * shifted. Not for a domain with its own oracle; capacity must be below 2^21. */
 #define RLVC_SCORE_RANKS 3u
 
 /* config.solver: where the values of the classes come from (sections 2.3 and 7). */
@@ -48,66 +47,85 @@ typedef struct rlvc_agent rlvc_agent;
 #define RLVC_SOLVER_Q_LEARNING 2u
 #define RLVC_SOLVER_SARSA 3u /* likewise, on-policy */
 
-/* config.explore: which action is tried where the greedy one is not taken. */
-#define RLVC_EXPLORE_UNIFORM 0u /* any, all alike, as published */
-/* one in two leads to the nearest class-action pair that was little tried, if there is one; the
- * other is drawn with preference for what was seldom tried in the class, and for the action
- * before (SPEC.md) */
+/* config.explore: which action is tried when the greedy one is not taken. */
+#define RLVC_EXPLORE_UNIFORM 0u /* every action with the same probability, as published */
+/* Every other exploring action leads to the nearest class-action pair that was little tried, if
+ * there is one. The others are drawn, with a preference for actions that were seldom tried in the
+ * class and for the previous action (SPEC.md). */
 #define RLVC_EXPLORE_DIRECTED 1u
 
-/* Chosen once, copied by rlvc_agent_init. Start from rlvc_config_default. */
+/* Options of an agent, copied by rlvc_agent_init. Start from rlvc_config_default. */
 typedef struct rlvc_config {
-    uint32_t actions;          /* how many actions, [1, 255]; no default */
-    uint32_t capacity;         /* interactions the ring holds, [1, 2^31 - 1]; when it is full the
-                                  oldest leaves (between two episodes it may hold one more). A
-                                  truncated or torn episode takes the room of one more. Default
-                                  2000 */
-    uint32_t classes;          /* classes the tree may grow to, [1, 65535]. Default 64 */
-    uint32_t features_at_once; /* candidate features whose bit columns are held in memory together,
-                                  [1, 64]; fewer cost time instead. Default 64, or the domain's
-                                  features_max if that is known and less */
-    uint32_t min_samples;      /* a class with fewer samples than this (of the actions whose
-                                  targets differ) is not tested for a split, [2, 2^31 - 1].
-                                  Default 8 */
-    uint32_t max_sweeps;       /* sweeps after which a batch solver stops unconverged, [1, 2^31 -
-                                  1]. Default 10,000 */
-    uint32_t seed;             /* of the exploration; any value. Default 1 */
-    uint8_t criterion;         /* RLVC_CRITERION_*. Default RLVC_CRITERION_RESIDUAL */
-    uint8_t score;             /* RLVC_SCORE_*. Default RLVC_SCORE_GAIN */
-    uint8_t solver;            /* RLVC_SOLVER_*. Default RLVC_SOLVER_VALUE_ITERATION */
-    uint8_t continuing;        /* 1: the window of definition 1 runs on through a terminated
-                                  interaction into the next episode, as in the paper's teleporting
-                                  maze; 0: it ends there. Default 0 */
-    uint8_t successors;        /* 1: a class none of whose targets tell anything apart is
-                                  aliased, too, if what follows the same action differs, even
-                                  while all rewards are alike (residual criterion only; the
-                                  candidates of a class must fit into features_at_once; not with
-                                  an own oracle). Default 1 for bits, if there are no more than
-                                  64, else 0 */
-    uint8_t explore;           /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
-    uint8_t reserved[2];       /* 0 */
-    float discount;            /* gamma of equation (1), [0, 1]. Default 0.9 */
-    float epsilon;             /* probability that act explores at random, [0, 1]. Default 0.9 */
-    float alpha;               /* the probability that the tree ever takes up a feature while
-                                  there is nothing to learn, at most: all learning steps, and the
-                                  tests tried in them, share it (SPEC.md), and a split by a
-                                  feature that is new to the tree must pass at its share, (0, 1].
-                                  It assumes that the samples of one action are independent of
-                                  each other, and nothing about the looks at the growing
-                                  database. Once the tree has classes, it is the same probability
-                                  for each of them. Default 0.01 */
-    float alpha_known;         /* a split by a feature that the tree holds already, and that has
-                                  so proved to be no noise, must only pass at this level at each
-                                  look, (0, 1]; below alpha's share it has no effect. Default 1:
-                                  fewer such splits by chance than one a look are expected */
-    float tolerance;           /* in units of reward, (0, RLVC_REWARD_MAX]: a batch solver that
-                                  ends by itself leaves values within this of the fixed point,
-                                  plus what binary32 costs: at most 1e-6 max|V| / (1 - discount).
-                                  (Policy iteration: of the fixed point of a policy that no other
-                                  action betters by more than this. Discount 1: just that its
-                                  last sweep changed no value by more.) Targets nearer than twice
-                                  this count as equal under the residual criterion. Default 0.01 */
-    float learning_rate;       /* of the incremental solvers, (0, 1]. Default 0.1 */
+    /* Number of actions, [1, 255]. No default. */
+    uint32_t actions;
+
+    /* Interactions that the ring holds, [1, 2^31 - 1]. When it is full, the oldest one is dropped.
+     * Between two episodes it may hold one more; a truncated or interrupted episode takes the room
+     * of one more. Default 2000. */
+    uint32_t capacity;
+
+    /* Classes that the tree may grow to, [1, 65535]. Default 64. */
+    uint32_t classes;
+
+    /* Candidate features whose bit columns are in memory at the same time, [1, 64]. Fewer take more
+     * time. Default 64, or the domain's features_max if that is known and less. */
+    uint32_t features_at_once;
+
+    /* A class with fewer samples (of the actions whose targets differ) is not tested for a split,
+     * [2, 2^31 - 1]. Default 8. */
+    uint32_t min_samples;
+
+    /* Sweeps after which a batch solver stops without having converged, [1, 2^31 - 1]. Default
+     * 10,000. */
+    uint32_t max_sweeps;
+
+    /* Seed of the exploration, any value. Default 1. */
+    uint32_t seed;
+
+    uint8_t criterion; /* RLVC_CRITERION_*. Default RLVC_CRITERION_RESIDUAL */
+    uint8_t score;     /* RLVC_SCORE_*. Default RLVC_SCORE_GAIN */
+    uint8_t solver;    /* RLVC_SOLVER_*. Default RLVC_SOLVER_VALUE_ITERATION */
+
+    /* 1: the window of definition 1 continues through a terminated interaction into the next
+     * episode, as in the paper's teleporting maze. 0: it ends there. Default 0. */
+    uint8_t continuing;
+
+    /* 1: a class is also aliased if a feature of its percepts predicts a feature of the successors
+     * after the same action, even while all rewards are equal. Needs the residual criterion, a
+     * domain without an oracle, and features_max within features_at_once. Default 1 for up to 64
+     * bits, else 0. */
+    uint8_t successors;
+
+    uint8_t explore;     /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
+    uint8_t reserved[2]; /* 0 */
+
+    /* Discount factor, gamma of equation (1), [0, 1]. Default 0.9. */
+    float discount;
+
+    /* Probability that rlvc_act explores, [0, 1]. Default 0.9. */
+    float epsilon;
+
+    /* The probability, at most, that the tree ever tests a feature while there is nothing to learn,
+     * (0, 1]. All learning steps and all their tests share it (SPEC.md). Assumes that the samples
+     * of one action are independent of each other; nothing is assumed about repeated tests of the
+     * growing database. Once the tree has classes, it is the same probability for each of them.
+     * Default 0.01. */
+    float alpha;
+
+    /* Significance level of a split by a feature that the tree already tests, and that so is no
+     * noise, (0, 1]. Below alpha's share it has no effect. Default 1: less than one split by chance
+     * is expected in a step. */
+    float alpha_known;
+
+    /* In units of reward, (0, RLVC_REWARD_MAX]. A batch solver that converges leaves values within
+     * this of the fixed point, plus the error of binary32: at most 1e-6 max|V| / (1 - discount).
+     * (Policy iteration: of the fixed point of a policy that no other action improves by more than
+     * this. Discount 1: only that its last sweep changed no value by more.) Under the residual
+     * criterion, targets closer than twice this count as equal. Default 0.01. */
+    float tolerance;
+
+    /* Learning rate of the incremental solvers, (0, 1]. Default 0.1. */
+    float learning_rate;
 } rlvc_config;
 
 /* Fills *config with the defaults for a domain and a number of actions. The domain is only looked
@@ -198,15 +216,16 @@ typedef struct rlvc_choice {
 #define RLVC_TERMINATED 1u /* the episode is over by its own rules: nothing comes after it */
 #define RLVC_TRUNCATED 2u  /* cut short from outside (a time limit): s' is still worth something */
 
-/* Starts an episode at a percept, which is copied. If one was under way, it is torn here, as if its
- * last interaction had been truncated. O(percept_bytes), and a call of check_percept().
+/* Starts an episode at a percept, which is copied. If one was under way, it is
+ * interrupted here, as if its last interaction had been truncated. O(percept_bytes), and a call of
+ * check_percept().
  * @return RLVC_OK; RLVC_E_BUSY; RLVC_E_PERCEPT: the domain refuses the percept. */
 RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
 
 /* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon
  * a run of k + 1 greedy actions begins (of one under the residual criterion), as section 4.2.1
- * asks; otherwise one action explores, as config.explore says. Each call is a new decision, of
- * which directed exploration takes note. O(actions), and O(depth of the tree) calls of exhibits().
+ * asks; otherwise one action explores, as config.explore says. Each call is a new decision, and is
+ * counted by directed exploration. O(actions), and O(depth of the tree) calls of exhibits().
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_CALLBACK. */
 RLVC_API rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice);
 
@@ -235,24 +254,24 @@ typedef struct rlvc_progress {
 
 /* One step of section 4.2.1 (parts 3a to 3c) on the interactions stored when it begins: refines
  * every aliased class until none is left, then solves for the values and increments k. Call it
- * until progress->done; what it makes does not depend on the budgets. Interactions observed in
- * between wait for the next step. Under the returns criterion the end of a step empties the ring,
+ * until progress->done. The result does not depend on the budgets. Interactions observed in between
+ * wait for the next step. Under the returns criterion the end of a step empties the ring,
  * since the next needs a fresh database.
  *
  * The unit of work is one sample looked at (SPEC.md says what each part of the method is charged);
- * RLVC_BUDGET_UNBOUNDED does the whole step. A tree that is full is no error: rlvc_stats counts the
- * splits refused.
+ * RLVC_BUDGET_UNBOUNDED does the whole step. A full tree is not an error: rlvc_stats counts
+ * the refused splits.
  * @param budget [RLVC_BUDGET_MIN, UINT32_MAX]
- * @return RLVC_OK; RLVC_E_RANGE: budget; RLVC_E_CALLBACK: what was done before the callback failed
- *         stands, as though the budget had ended there, and the next call tries that callback
- * again; *progress tells. */
+ * @return RLVC_OK; RLVC_E_RANGE: budget; RLVC_E_CALLBACK: work done before
+ *         the failure is kept, as if the budget had ended there. The next call retries that
+ *         callback. *progress is filled in. */
 RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress);
 
-/* Gives up the learning step under way, for the next rlvc_learn to begin another, and lets go of
- * the interactions that it held: for a step that cannot be finished, since a callback goes on
- * failing. Splits and values that it made so far stand, k is not incremented. rlvc_begin and
- * rlvc_observe do the same, instead of answering RLVC_E_BUSY, if the last call of rlvc_learn
- * failed: what made it fail leaves the ring with its interaction. O(capacity + classes).
+/* Abandons the learning step under way and releases the interactions that it held. The next
+ * rlvc_learn begins a new step. Use it when a step cannot be finished because a callback keeps
+ * failing. Splits and values made so far are kept; k is not incremented. rlvc_begin and
+ * rlvc_observe do the same, instead of returning RLVC_E_BUSY, if the last rlvc_learn failed: so the
+ * percept that made it fail can leave the ring. O(capacity + classes).
  * @return RLVC_OK, also if no step is under way. */
 RLVC_API rlvc_status rlvc_learn_abandon(rlvc_agent *agent);
 
@@ -264,8 +283,8 @@ RLVC_API rlvc_status rlvc_learn_abandon(rlvc_agent *agent);
  * tolerance, or than so many standard errors of the difference where both have min_samples in the
  * ring. So no greedy action changes, and a test stays that has one below it which stays.
  *
- * It is for before a tree is read or deployed, and for a world that has changed: the next
- * rlvc_learn tests the classes again, and splits again what it finds to differ. The standard errors
+ * Use it before a tree is read or deployed, or after the world has changed. The next rlvc_learn
+ * tests the classes again, and splits those that differ. The standard errors
  * are those of independent samples, which those of one trajectory are not. O(capacity + classes *
  * actions).
  * @param tolerance  in units of return, [0, RLVC_REWARD_MAX]
@@ -278,7 +297,7 @@ RLVC_API rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviat
 /* ------------------------------------------------------------------ asking */
 
 /* The class of a percept and its greedy action: the learnt policy. Changes nothing. While a
- * learning step is under way the actions are those of the last solution. O(depth) calls of
+ * learning step is under way, the actions are those of the last solution. O(depth) calls of
  * exhibits().
  * @param class_id, action each optional
  * @return RLVC_OK; RLVC_E_CALLBACK: *class_id and *action unchanged. */
@@ -292,7 +311,7 @@ typedef struct rlvc_statistics {
     uint32_t classes;      /* [1, config.classes] */
     uint32_t depth;        /* of the tree: tests on its longest path */
     uint32_t last_split;   /* the step k at which the newest split was made; 0 if none */
-    uint32_t refused;      /* splits that proved real but found the tree full, since init */
+    uint32_t refused;      /* significant splits not made because the tree was full, since init */
     uint32_t sweeps;       /* of the last solution */
     float residual;        /* of the last solution: max |V_new - V_old| of its last sweep */
 } rlvc_statistics;
@@ -319,16 +338,21 @@ RLVC_API rlvc_status rlvc_value(const rlvc_agent *agent, uint32_t class_id, floa
 typedef struct rlvc_split {
     uint32_t class_id; /* the class that was split */
     uint32_t step;     /* k at that time */
-    uint32_t action;   /* the action whose targets betrayed the aliasing, [0, actions), or
-                          `actions` if those of all actions did together, or `actions` + 1 if
-                          what followed them did (config.successors) */
-    uint32_t samples;  /* of that class and action, or of the class */
-    float log_tests;   /* natural logarithm of the number of tests that log_p is corrected by */
-    float score;       /* of the split, as config.score measures it (together: the mean over the
-                          samples; of chi-square and ranks too; by what followed: always of
-                          chi-square) */
-    float log_p;       /* natural logarithm of the p-value, corrected by the number of tests in
-                          this class, but not by alpha's sharing */
+
+    /* The action whose targets showed the aliasing, [0, actions). `actions`: the evidence of all
+     * actions was pooled. `actions` + 1: the successors showed it (config.successors). */
+    uint32_t action;
+
+    uint32_t samples; /* of that class and action, or of the class */
+    float log_tests;  /* natural logarithm of the number of tests that log_p is corrected by */
+
+    /* Of the split, by config.score. Pooled: the mean over the samples. By ranks: the statistic. By
+     * successors: chi-square per sample. */
+    float score;
+
+    /* Natural logarithm of the p-value, corrected for the number of tests in this class, but not
+     * for the steps that share alpha. */
+    float log_p;
 } rlvc_split;
 
 /* @param split, feature each optional; feature gets feature_bytes
@@ -348,9 +372,9 @@ typedef int (*rlvc_write)(void *ctx, const char *text, size_t bytes);
  * the text ends where it did. */
 RLVC_API rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
 
-/* Checks every invariant of the agent's memory (SPEC.md lists them): for tests, and for whoever
- * suspects his memory. O(capacity + classes * actions), and a call of the domain's checks
- * for each percept in the ring and each feature of the tree.
+/* Checks every invariant of the agent's memory (SPEC.md lists them). For tests and for debugging.
+ * O(capacity + classes * actions), and a call of the domain's checks for each percept in the ring
+ * and each feature of the tree.
  * @return RLVC_OK; RLVC_E_MEMORY: damaged. */
 RLVC_API rlvc_status rlvc_agent_check(rlvc_agent *agent);
 

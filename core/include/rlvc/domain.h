@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The world as the learner sees it (section 5): what a percept is, what a feature is, the feature
- * detector, and the refining oracle.
+/* The domain (section 5): percepts, features, the feature detector and the refining oracle.
  *
  * Percepts and features are records of a fixed size, kept by value: percepts in the agent's ring,
- * one feature in each internal node of its tree. No callback may call back into the agent that
- * called it, keep a pointer it was given, or give another answer for the same arguments. A callback
- * returns 0, or anything else to fail: the agent's call then ends with RLVC_E_CALLBACK. */
+ * one feature in each internal node of its tree. A callback must not call the agent that
+ * called it, must not keep a pointer it was given, and must always give the same result for the
+ * same arguments. A callback returns 0, or anything else to fail: the agent's call then ends with
+ * RLVC_E_CALLBACK. */
 #ifndef RLVC_DOMAIN_H
 #define RLVC_DOMAIN_H
 
@@ -49,7 +49,7 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DOMAIN_THRESHOLDS 3u
 
 typedef struct rlvc_domain {
-    void *ctx; /* handed to every callback, untouched */
+    void *ctx; /* passed to every callback */
 
     uint32_t percept_bytes; /* size of a percept's record, [1, 2^20]. A record is aligned to 4
                                (8) if its size is a multiple of 4 (8), else to 1. */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* A log of interactions, for flash or a serial line: written as they happen, read back by whoever
- * wants to learn from them.
+/* A log of interactions, for flash or a serial line: written as they happen, read back to learn
+ * from them.
  *
  * A log is a row of records, each with a sequence number and a CRC. A header begins it, and begins
  * it anew whenever a writer is opened to append to it. An episode is its first percept, then a
  * record for each interaction, which holds s' but not s, since that is the percept before it. A
- * record that was cut short or changed is left out, and what comes after is used. SPEC.md gives the
- * bytes. */
+ * truncated or corrupt record is skipped, and reading continues after it. SPEC.md gives the bytes.
+ */
 #ifndef RLVC_LOG_H
 #define RLVC_LOG_H
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The smallest decision tree that does what is allowed: given rows, each a vector of bits with a
- * set of allowed actions, the binary tree of the fewest leaves in which every row ends in a leaf
- * whose action it allows. (Section 7 asks for "techniques to remove learned features that are
- * subsequently proved useless".) Knows nothing of agents: rlvc/policy.h brings the two together. */
+/* The smallest decision tree that respects sets of allowed actions. Given rows, each a vector of
+ * bits with a set of allowed actions, it finds the binary tree with the fewest leaves in which
+ * every row ends in a leaf whose action it allows. (Section 7 asks for "techniques to remove
+ * learned features that are subsequently proved useless".) It does not depend on agents:
+ * rlvc/policy.h connects the two. */
 #ifndef RLVC_MIN_TREE_H
 #define RLVC_MIN_TREE_H
 
@@ -24,7 +25,7 @@ extern "C" {
 /* Words of a row. */
 #define RLVC_MIN_TREE_WORDS(features) (((uint32_t)(features) + 63u) / 64u)
 
-/* The rows, and how much may be spent on them. */
+/* The rows, and the limits of the search. */
 typedef struct rlvc_min_tree_task {
     const uint64_t *row;     /* [rows][words] feature f is bit f % 64 of word f / 64 of a row; the
                                 bits from `features` on are 0 */
@@ -55,17 +56,16 @@ typedef struct rlvc_min_tree_result {
     uint8_t reserved[3];
 } rlvc_min_tree_result;
 
-/* The exact size of the block that rlvc_min_tree needs: of the order of entries * (8 + 16 * words)
+/* The exact size of the block that rlvc_min_tree needs, about entries * (8 + 16 * words)
  * + 20 * rows + 70 * features bytes. O(1).
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or RLVC_E_MEMORY if no size_t
  * holds the size: *bytes is then 0. */
 RLVC_API rlvc_status rlvc_min_tree_size(const rlvc_min_tree_task *task, size_t *bytes);
 
-/* Finds the tree. Dynamic programming over the subsets of rows that tests can reach (there are at
- * most 3^features, and of most no need, as a lower bound of what they take is known), each solved
- * once and kept in the table. Where the table or the effort does not suffice, the rows are parted
- * by the feature that purifies best (Gini), and each part is tried again. O(effort * depth) at
- * worst.
+/* Finds the tree. Dynamic programming over the subsets of rows that tests can reach, at most
+ * 3^features; a lower bound prunes most of them. Each subset is solved once and kept in the table.
+ * If the table is full or the effort is spent, the rows are split by the feature with the lowest
+ * Gini impurity, and each part is tried again. O(effort * depth) at worst.
  * @param memory aligned to 8; `bytes` of it, rlvc_min_tree_size or more. The tree lies in it
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a field of the task, or two rows that are alike in
  * every feature allow no common action; RLVC_E_MEMORY. */

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* A policy by itself, without what learning needs: the agent's, made as small as can be, to be
- * deployed.
+/* The agent's policy by itself, made as small as possible, to be deployed without what learning
+ * needs.
  *
- * The agent's tree tells situations apart that are worth different amounts; a policy need only tell
- * those apart in which to act differently. So the smallest tree is sought, over the features that
- * the agent's tree tests, that does at each percept of the agent's ring what the agent does, or
- * what is as good. See rlvc/min_tree.h for how.
+ * The agent's tree separates situations that are worth different amounts. A policy only has to
+ * separate situations that need different actions. So this searches for the smallest tree, over the
+ * features of the agent's tree, that at each percept in the agent's ring takes the agent's action
+ * or one that is as good. See rlvc/min_tree.h for how.
  *
  * A policy lies at the beginning of a block of the caller's and is independent of the agent from
  * then on; its domain's ctx must stay. It is used by one thread at a time. Every function here
- * answers RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
+ * returns RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
  * callback of the domain calls it. */
 #ifndef RLVC_POLICY_H
 #define RLVC_POLICY_H
@@ -23,7 +23,7 @@ extern "C" {
 
 typedef struct rlvc_policy rlvc_policy;
 
-/* How to look for it. Start from rlvc_policy_default. */
+/* Options of the search. Start from rlvc_policy_default. */
 typedef struct rlvc_policy_config {
     /* At a percept an action is as good as the agent's if it was tried and its Q in the percept's
      * class is no more than this below that of the agent's, in units of return, [0,
@@ -56,7 +56,7 @@ RLVC_API rlvc_status rlvc_policy_default(const rlvc_agent *agent, rlvc_policy_co
 RLVC_API rlvc_status rlvc_policy_size(const rlvc_agent *agent, const rlvc_policy_config *config,
                                       size_t *bytes);
 
-/* What became of the tree. */
+/* Result of the search. */
 typedef struct rlvc_policy_info {
     uint32_t classes;   /* leaves of the agent's tree */
     uint32_t collapsed; /* left, once every subtree whose leaves all act alike has become one: no
@@ -70,8 +70,8 @@ typedef struct rlvc_policy_info {
      * the ring; 0: table or effort did not suffice to know it. */
     uint8_t exact;
 
-    /* 1: the agent's action at every percept whatever, as nothing smaller was found than the
-     * collapsed tree, or there was no room for the percepts, or the agent has more than
+    /* 1: takes the agent's action at every possible percept, since nothing smaller than the
+     * collapsed tree was found, or there was no room for the percepts, or the agent has more than
      * RLVC_MIN_TREE_ACTIONS_MAX actions. 0: at a percept unlike all of the ring's it does what is
      * done at the percepts of the leaf that it comes to. */
     uint8_t as_agent;

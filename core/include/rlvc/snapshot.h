@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Snapshots: an agent outlives the power.
+/* Snapshots: saving an agent so that it survives power loss.
  *
- * rlvc_save writes all that decides an agent's future, a learning step under way included, and
- * rlvc_load makes an agent of it that goes on bit for bit as if it had never stopped. A store has
- * two slots. A snapshot goes into the one that does not hold the newest, and counts only once its
- * last byte is there: whenever the power fails, one of the two is whole.
+ * rlvc_save writes the whole state of an agent, including a learning step under way. rlvc_load
+ * makes an agent that continues bit for bit as if it had never stopped. A store has two slots. A
+ * snapshot is written to the slot that does not hold the newest, and is valid only once its last
+ * byte is written. Whenever the power fails, one of the two is whole.
  *
- * The bytes are the same on every target; SPEC.md gives them. What a store holds is not trusted:
- * whatever it is, rlvc_load makes a sound agent or refuses. */
+ * The bytes are the same on every target; SPEC.md gives them. The content of a store is not
+ * trusted: rlvc_load makes a sound agent or returns an error. */
 #ifndef RLVC_SNAPSHOT_H
 #define RLVC_SNAPSHOT_H
 
@@ -69,11 +69,11 @@ RLVC_API rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store);
 
 /* Makes an agent in the caller's block, as rlvc_agent_init does, out of the newest whole snapshot
  * of a store. The config must be the one it was saved with, in every field, and the domain must be
- * as it was. A learning step under way is brought back to where it was by doing its present part
- * anew: that takes at most the time of grouping all samples and of searching one class, and calls
- * the domain. If a callback fails in that, the step is given up (rlvc_learn_abandon).
- * What the domain does not vouch for (check_percept, check_feature) is refused as damaged; a domain
- * without these checks must be right for any record.
+ * as it was. A learning step under way is restored by repeating its current phase up to where it
+ * was. That takes at most the time of grouping all samples and searching one class, and calls the
+ * domain. If a callback fails in that, the step is given up (rlvc_learn_abandon). What the domain
+ * does not vouch for (check_percept, check_feature) is refused as damaged; a domain without these
+ * checks must be right for any record.
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes;
  * RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION; RLVC_E_MISMATCH.
  * Unless it is RLVC_OK, *agent is null and the block holds nothing of use. */
@@ -91,8 +91,8 @@ typedef struct rlvc_snapshot_info {
     rlvc_config config;
 } rlvc_snapshot_info;
 
-/* Looks into a store, as a tool must that was not told the config. Nothing but the snapshot's
- * wholeness is checked. O(bytes).
+/* Reads the head of a store without knowing the config. Only checks that the snapshot is whole.
+ * O(bytes).
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE; RLVC_E_EMPTY;
  * RLVC_E_DAMAGED; RLVC_E_VERSION: of *info, only what stands before percept_bytes is known;
  * RLVC_E_MISMATCH: its config has an option that this release does not have: *info means nothing.

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What every function of the library answers.
+/* Status codes: what every function of the library returns.
  *
- * A function that fails leaves its arguments and the agent as they were, unless its own text says
- * otherwise (only rlvc_learn does: what it finished before a callback failed, stands). */
+ * A function that fails leaves its arguments and the agent as they were, unless its
+ * documentation says otherwise. Only rlvc_learn does: it keeps what it finished before a callback
+ * failed. */
 #ifndef RLVC_STATUS_H
 #define RLVC_STATUS_H
 
@@ -16,7 +17,7 @@ extern "C" {
 #define RLVC_API
 #endif
 
-/* Values are pinned and only ever appended to. An enum may be one byte wide on a bare-metal Arm
+/* Values never change; new ones are appended. An enum may be one byte wide on a bare-metal Arm
  * (-fshort-enums), so it is a return type only and never a struct's field. */
 typedef enum rlvc_status {
     RLVC_OK = 0,
@@ -33,13 +34,13 @@ typedef enum rlvc_status {
     RLVC_E_REENTERED = -9, /* a callback called back into the agent that had called it */
     RLVC_E_STORE = -10,    /* a read, write, erase or sync of the caller's store failed */
     RLVC_E_EMPTY = -11,    /* the store holds no snapshot */
-    RLVC_E_DAMAGED = -12,  /* what is stored was cut short or changed */
-    RLVC_E_VERSION = -13,  /* what is stored is of a version that this library does not read */
-    RLVC_E_MISMATCH = -14, /* what is stored is of another config or another domain */
+    RLVC_E_DAMAGED = -12,  /* the snapshot is truncated or corrupt */
+    RLVC_E_VERSION = -13,  /* the snapshot has a version that this library does not read */
+    RLVC_E_MISMATCH = -14, /* the snapshot was saved with another config or domain */
     RLVC_E_PERCEPT = -15   /* the domain refuses the percept */
 } rlvc_status;
 
-/* A constant English sentence for a status; never null, also for a value that is none. O(1). */
+/* A constant English sentence for a status. Never null, even for an unknown value. O(1). */
 RLVC_API const char *rlvc_status_text(rlvc_status status);
 
 #ifdef __cplusplus

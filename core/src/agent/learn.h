@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A learning step's phases, and what they look at: see learn.c. */
+/* A learning step's phases, and their inputs: see learn.c. */
 #ifndef RLVC_SRC_LEARN_H
 #define RLVC_SRC_LEARN_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Taking useless tests out of the tree (section 7, "techniques to remove learned features that are
- * subsequently proved useless"): see rlvc_prune.
+/* Pruning: removing useless tests from the tree (section 7, "techniques to remove learned features
+ * that are subsequently proved useless"): see rlvc_prune.
  *
  * Splits are looked at from the newest to the oldest, and so each after all that are below it. One
  * whose two sides are single classes by then, which agree, is undone: the class that it made, j +

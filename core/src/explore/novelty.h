@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* How near a class is to what was little tried: value iteration on the class-level model, with
- * rewards of its own.
+/* Novelty: how near a class is to a class-action pair that was little tried. Value iteration on the
+ * class-level model, with rewards of its own.
  *
- *     U(c, a) = 1                                                     if (c, a) was tried fewer
- * than m times = 0.95 * sum over c' of n(c, a, c') / n(c, a) * U(c')   otherwise U(c)    = max_a
- * U(c, a);                                        0 after the end of an episode
+ *     U(c, a) = 1 if (c, a) was tried fewer than m times,
+ *     U(c, a) = 0.95 * sum over c' of n(c, a, c') / n(c, a) * U(c') otherwise,
+ *     U(c)    = max_a U(c, a), and 0 after the end of an episode.
  *
  * This is R-max (Brafman and Tennenholtz, 2002) without the rewards of the task: how much there is
  * to be gained need not be known, a reward that nobody has met yet is looked for as well as any

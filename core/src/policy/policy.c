@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A policy by itself: see rlvc/policy.h.
+/* The policy by itself: see rlvc/policy.h.
  *
  * Its tree has the layout of the agent's (tree.h), so that it is walked, printed and exported
  * alike. In the block it comes first, with the actions of its leaves; behind it is what only its
@@ -7,8 +7,8 @@
  *
  *     number, origin   the tree's distinct features: which one each split tests, and a split of
  * each row, allowed     the ring's distinct percepts, by these features scratch          first an
- * index of the rows, to tell whether one is new; then what rlvc_min_tree works in, and leaves its
- * tree in; or else the leaf that each node of the agent's tree begins in the collapsed one */
+ * index of the rows, to find duplicates; then the block of rlvc_min_tree, with its tree; or else
+ * the leaf that each node of the agent's tree begins in the collapsed one */
 #include "rlvc/policy.h"
 
 #include "rlvc/min_tree.h"

@@ -4,8 +4,8 @@
  * A slot holds a percept s_t and, once it was acted upon, what came of it. Slots stand in order of
  * time; position 0 is the oldest. The percept of position p + 1 is s' of the interaction at p, so
  * that two successive interactions share it, except where the interaction at p was terminated: then
- * there is no s', and p + 1 begins another episode. A truncated or torn episode ends with a slot
- * that holds its last s' and no interaction.
+ * there is no s', and p + 1 begins another episode. A truncated or interrupted episode ends with a
+ * slot that holds its last s' and no interaction.
  *
  * Invariants: every slot with an interaction that was not terminated has a successor; a slot
  * without one is the s' of the slot before it, or the current percept; position 0 holds an
@@ -62,7 +62,7 @@ static inline uint32_t rlvc_replay_next(const rlvc_replay *replay, uint32_t slot
     return slot + 1u == replay->slots ? 0 : slot + 1u;
 }
 
-/* Starts an episode: the percept becomes the current one; an open episode is torn.
+/* Starts an episode: the percept becomes the current one; an open episode is interrupted.
  * @return RLVC_OK; RLVC_E_BUSY: there is no room but frozen room. O(percept_bytes). */
 rlvc_status rlvc_replay_begin(rlvc_replay *replay, const void *percept);
 

@@ -17,7 +17,7 @@ static int admits(const rlvc_return_cursor *window, const rlvc_return_input *inp
     if (position >= input->end)
         return 0;
     uint8_t flags = input->replay->flags[rlvc_replay_slot(input->replay, (uint32_t)position)];
-    /* A slot without an interaction is where an episode was truncated or torn. */
+    /* A slot without an interaction is where an episode was truncated or interrupted. */
     if (!(flags & RLVC_SLOT_STORED) || !(flags & RLVC_SLOT_EXPLOITED))
         return 0;
     return window->offset == input->horizon || !(flags & RLVC_SLOT_TERMINATED) || input->continuing;

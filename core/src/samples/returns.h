@@ -30,8 +30,8 @@ typedef struct rlvc_return_input {
 void rlvc_return_begin(rlvc_return_cursor *window, uint32_t position);
 
 /* R_t^H is undefined if the window leaves the database, holds an action that was not exploitation
- * (section 4.2.1), or crosses the end of an episode: a truncated or torn one always, a terminated
- * one unless the task is continuing.
+ * (section 4.2.1), or crosses the end of an episode: a truncated or interrupted one always, a
+ * terminated one unless the task is continuing.
  * @return the work, at most budget (>= 1): one unit for each interaction looked at, 2 (H + 1) in
  * all. */
 uint32_t rlvc_return_step(rlvc_return_cursor *window, const rlvc_return_input *input,

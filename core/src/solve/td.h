@@ -6,7 +6,8 @@
  *     Sarsa:      target = r + gamma Q(c', a') with the action a' that was taken, so one step later
  *
  * and r alone where the episode terminated. Where it was truncated nobody acts after s', and Sarsa
- * too takes the maximum; where it was torn, Sarsa's last update is not made. */
+ * too takes the maximum; where it was
+ * interrupted, Sarsa's last update is not made. */
 #ifndef RLVC_SRC_TD_H
 #define RLVC_SRC_TD_H
 

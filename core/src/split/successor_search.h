@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Aliasing by what follows: a class is aliased, too, if the same action leads from it to percepts
- * of different kinds, even while all targets are still alike. So a learner finds its way about
- * before it knows what pays, which is when rewards are seldom.
+/* Aliasing by successors: a class is also aliased if a feature of its percepts predicts a feature
+ * of the percepts that follow the same action, even while all targets are equal. So the tree grows
+ * before any reward is found, which matters where rewards are rare.
  *
  * For features f of s and g of s', and each action, a 2 x 2 table counts the class's samples by
  * whether s exhibits f and s' exhibits g (after a terminated interaction there is no s', which

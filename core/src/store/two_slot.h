@@ -4,8 +4,9 @@
  * A snapshot is a head of 16 bytes (the letters RLVS, version, sequence number, bytes in all), its
  * content, zeros, and in its last four bytes the CRC of all that is before them. It is whole if the
  * CRC is right, of two that are whole the one with the higher sequence number is the newer, and
- * writing goes to the slot that does not hold the newest whole one. So no write touches what would
- * have to be fallen back upon, and no order of writes matters within a slot. */
+ * writing goes to the slot that does not hold the newest whole one. So a write never touches
+ * the snapshot that would be the fallback, and the order of writes within a slot does not matter.
+ */
 #ifndef RLVC_SRC_TWO_SLOT_H
 #define RLVC_SRC_TWO_SLOT_H
 
