@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* form: how a number of a vector stands in a record. Values are pinned. */
+/* form: the type of the numbers of a vector. Values never change. */
 #define RLVC_DESCRIPTORS_FLOAT 0u /* binary32, finite, of absolute value at most 1e15 */
 #define RLVC_DESCRIPTORS_INT8 1u  /* int8_t: distances are exact */
 
@@ -21,8 +21,8 @@ extern "C" {
 #define RLVC_DESCRIPTORS_CANDIDATES_MAX 65535u
 #define RLVC_DESCRIPTORS_DRAWS_MAX 64u
 
-/* What percepts and features are, and which features are looked at. The caller's, who keeps it in
- * place and unchanged for as long as an agent uses the domain. */
+/* Percepts, features and candidates. It belongs to the caller, who keeps it in place and unchanged
+ * while an agent uses the domain. */
 typedef struct rlvc_descriptors {
     uint32_t points;     /* P: the most vectors of a percept, [1, RLVC_DESCRIPTORS_POINTS_MAX] */
     uint32_t dimensions; /* D: numbers of a vector, [1, RLVC_DESCRIPTORS_DIMENSIONS_MAX] */
@@ -76,8 +76,7 @@ RLVC_API rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc
 RLVC_API float rlvc_descriptors_radius(const void *feature);
 
 /* Which vector of a percept is the nearest to that of a feature (of equals the first), and how far
- * it is, squared. For people, who want to see where a feature was found: acting and learning need
- * less. O(P D).
+ * it is, squared. To show where a feature was found; acting and learning do not need it. O(P D).
  * @param point, squared each optional
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: the percept has no vector, or a count above P. */
 RLVC_API rlvc_status rlvc_descriptors_nearest(const rlvc_descriptors *descriptors,

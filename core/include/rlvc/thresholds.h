@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The ready-made domain of thresholds: a percept is a vector of real numbers, a feature is a
  * component and a cutpoint, and a percept exhibits the feature if that component lies above the
- * cutpoint. As an option features may also weigh two components against each other (oblique
- * tests). */
+ * cutpoint. Optionally a feature may also combine two components (oblique tests). */
 #ifndef RLVC_THRESHOLDS_H
 #define RLVC_THRESHOLDS_H
 
@@ -14,18 +13,16 @@ extern "C" {
 #endif
 
 #define RLVC_THRESHOLDS_COMPONENTS_MAX 1024u
-#define RLVC_THRESHOLDS_OBLIQUE_MAX 64u /* components, where tests are oblique */
+#define RLVC_THRESHOLDS_OBLIQUE_MAX 64u /* components, if tests are oblique */
 #define RLVC_THRESHOLDS_CUTPOINTS_MAX 65535u
 #define RLVC_THRESHOLDS_NUMBER_MAX 1e15f
 
-/* What percepts are, and which features are looked at. The caller's, who keeps it in place and
- * unchanged for as long as an agent uses the domain.
+/* Percepts and candidate features. It belongs to the caller, who keeps it in place and unchanged
+ * while an agent uses the domain.
  *
  * A percept's record is D numbers of binary32, each finite and of absolute value at most
- * RLVC_THRESHOLDS_NUMBER_MAX. rlvc_thresholds_check tells; it is for whoever hands percepts over to
- * call it, where a NaN may come in. A NaN or a number out of range that got into a percept
- * nevertheless makes every callback fail that looks at it, so that it is never an answer: acting
- * and learning then end with RLVC_E_CALLBACK for as long as the ring holds that percept. */
+ * RLVC_THRESHOLDS_NUMBER_MAX. rlvc_thresholds_check checks that. rlvc_begin and rlvc_observe
+ * refuse other percepts with RLVC_E_PERCEPT, and every callback fails on one. */
 typedef struct rlvc_thresholds {
     uint32_t components; /* D, [1, RLVC_THRESHOLDS_COMPONENTS_MAX] */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Is a config sound? For those who need not say why, and so need no text in flash: see config.c. */
+/* Checks a config without saying why, and so without text in flash: see config.c. */
 #ifndef RLVC_SRC_CONFIG_H
 #define RLVC_SRC_CONFIG_H
 

@@ -1,27 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* A learning step (section 4.2.1, part 3), in slices.
  *
- * A step is a row of rounds. Each gives every percept its class (LABEL), finds the target of every
- * sample (GROUP) and examines each class once (SEARCH): the best split over its actions is carried
- * out at the end of the class, and the next round examines both children. When a round splits
- * nothing, no class is aliased any more and the step ends (FINISH): the policy is made greedy, k
- * incremented. Only a class whose targets tell nothing apart may be aliased by what follows
- * (SUCCESSION): looked for when a round split nothing; what is found makes another round.
+ * A step is a sequence of rounds. A round assigns a class to each percept (LABEL), computes the
+ * target of each sample (GROUP) and searches each class once (SEARCH). A significant split is made
+ * at the end of the class, and the next round searches both children. When a round makes no split,
+ * no class is aliased any more. Then classes may still be aliased by their successors (SUCCESSORS);
+ * a split by these begins another round. In the end (FINISH) the policy is made greedy and k is
+ * incremented.
  *
- *     residual:  LABEL  MODEL SOLVE SEEK  GROUP SEARCH   each round; the targets need the values of
- * its classes SUCCESSION                              if that split nothing, and config.successors
- *     returns:   LABEL  GROUP SEARCH                     each round; the targets are facts
- *                MODEL SOLVE SEEK                        once, after the last
+ *     residual:  LABEL MODEL SOLVE NOVELTY GROUP SEARCH   each round: targets need the values
+ *                SUCCESSORS                               if that made no split, config.successors
+ *     returns:   LABEL GROUP SEARCH                       each round: targets need no values
+ *                MODEL SOLVE NOVELTY                      once, after the last
  *
- * SEEK is for directed exploration. It stands where the model does, which the next GROUP
- * overwrites.
+ * NOVELTY is for directed exploration. It uses the model, which the next GROUP overwrites.
  *
- * With an incremental solver MODEL and SOLVE are left out, as Q is learnt while observing. In their
- * place KEEP copies V for the residual's targets, or these would change while the step is under
- * way.
+ * With an incremental solver Q is learnt while observing, and there is no MODEL and no SOLVE.
+ * Instead COPY_VALUES copies V for the targets, since V may change while the step is under way.
  *
- * All that a phase knows lies in the learner and in the tables, so that a budget may end anywhere
- * between two elementary steps, and what comes out does not depend on where. */
+ * The whole state of a phase is in the learner and in the tables. So a budget may end between any
+ * two elementary steps, and the result does not depend on where. */
 #include "learn.h"
 
 #include "../base/float_math.h"
@@ -155,7 +153,7 @@ static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
     split->step = agent->step;
     rlvc_tree_grow(&agent->tree, split, feature);
     rlvc_values_inherit(&agent->values, made, learner->at);
-    if (!rlvc_is_incremental(&agent->config)) { /* the next solution tells the two apart */
+    if (!rlvc_is_incremental(&agent->config)) { /* the next solution separates the two */
         rlvc_values_forget(&agent->values, made);
         rlvc_values_forget(&agent->values, learner->at);
     }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* How sure the mean of a class-action pair's targets is, which is its Q: by the spread of the
- * targets r + gamma V(C(s')) that the ring still holds. Interactions that no learning step has
- * labelled yet are left out.
+/* The variance of Q(c, a), the mean of a class-action pair's targets: from the spread of the
+ * targets r + gamma V(C(s')) in the ring. Interactions that no learning step has labelled yet are
+ * left out.
  *
- * The samples of one trajectory are not independent, and V is common to them: the standard errors
- * are what they would be if it were otherwise, and so rather too small. */
+ * The samples of one trajectory are not independent, and V is common to them: the
+ * standard errors assume that they are, and so are rather too small. */
 #ifndef RLVC_SRC_Q_VARIANCE_H
 #define RLVC_SRC_Q_VARIANCE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Assertions of the library's inside. They are for its own tests: in a controller they are compiled
- * out, and nothing that a caller can do reaches one, since the public functions validate. */
+/* Internal assertions, for the library's own tests. In a controller they are compiled out. No
+ * caller can trigger one, since the public functions validate their arguments. */
 #ifndef RLVC_SRC_ASSERT_H
 #define RLVC_SRC_ASSERT_H
 

@@ -12,10 +12,9 @@
  *
  *     w(a) = p(a) / (1 + min(n(c, a), 8))^4,    p(a) = 4 if a was the action before, else 1.
  *
- * The first half presumes that the classes tell situations apart. While they do not, a way through
- * them can end at a wall, and it is the second half that gets the walk about: in a coarse class all
- * n are large, and it keeps its direction; in a fine one hardly anything is repeated before all has
- * been tried. */
+ * The first half needs classes that separate situations. While they do not, a path through them can
+ * end at a wall, and the second half moves the walk: in a coarse class all n are large, and it
+ * keeps its direction; in a fine class hardly any action is repeated before all have been tried. */
 #ifndef RLVC_SRC_EXPLORE_H
 #define RLVC_SRC_EXPLORE_H
 

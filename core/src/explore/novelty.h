@@ -6,15 +6,16 @@
  *     U(c, a) = 0.95 * sum over c' of n(c, a, c') / n(c, a) * U(c') otherwise,
  *     U(c)    = max_a U(c, a), and 0 after the end of an episode.
  *
- * This is R-max (Brafman and Tennenholtz, 2002) without the rewards of the task: how much there is
- * to be gained need not be known, a reward that nobody has met yet is looked for as well as any
- * other, and an exploring action does not shun what is costly. In a deterministic world U(c) is
- * 0.95 to the power of the moves to the nearest little-tried pair.
+ * This is R-max (Brafman and Tennenholtz, 2002) without the rewards of the task: no bound of the
+ * rewards is needed, a reward that was not found yet is searched for like any other, and costs do
+ * not deter exploration. In a deterministic world U(c) is 0.95 to the power of the moves to the
+ * nearest little-tried pair.
  *
  * The sweeps begin at U = 0 and only raise it; the last one is that which raises no U by more than
  * 0.001, and what is worth no more than that counts as out of reach. Tried means tried in the ring:
- * what has left it is worth another look. U lies in values.pair.nearness, which nobody needs
- * between a solution and the next model. */
+ * what has left it is explored again. U is in values.pair.nearness, an array that is free between a
+ * solution and the next model.
+ */
 #ifndef RLVC_SRC_NOVELTY_H
 #define RLVC_SRC_NOVELTY_H
 

@@ -2,8 +2,8 @@
 /* The compact tree of a policy, for writing it as C.
  *
  * A node is mixed if its leaves do not all act alike. The compact tree consists of the mixed nodes,
- * which are internal, and of their other children, which become leaves. Nothing is stored of it:
- * each question is answered by a walk over a subtree, so that exporting takes no memory. In
+ * which are internal, and of their other children, which become leaves. It is not
+ * stored: each query walks over a subtree, so that exporting takes no memory. In
  * pre-order, mixed node i has its absent child, if that is mixed, at i + 1, and its present child
  * after all mixed nodes below the absent one. */
 #ifndef RLVC_SRC_COLLAPSE_H

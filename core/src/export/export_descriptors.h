@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The part of an exported policy that is of the domain of descriptors. */
+/* The part of an exported policy for the domain of descriptors. */
 #ifndef RLVC_SRC_EXPORT_DESCRIPTORS_H
 #define RLVC_SRC_EXPORT_DESCRIPTORS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The part of an exported policy that is of the domain of thresholds. */
+/* The part of an exported policy for the domain of thresholds. */
 #ifndef RLVC_SRC_EXPORT_THRESHOLDS_H
 #define RLVC_SRC_EXPORT_THRESHOLDS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Writing text through a caller's callback, without stdio. The first failure sticks: after it
- * nothing is written any more. */
+/* Writing text through a caller's callback, without stdio. After the first failure nothing more is
+ * written. */
 #ifndef RLVC_SRC_TEXT_H
 #define RLVC_SRC_TEXT_H
 

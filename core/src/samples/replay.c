@@ -56,7 +56,7 @@ static void push(rlvc_replay *replay, const void *percept) {
 }
 
 rlvc_status rlvc_replay_begin(rlvc_replay *replay, const void *percept) {
-    /* An open percept that is nobody's s' is of no use to anyone: the new one takes its place. */
+    /* An open percept that is no interaction's s' is not needed: the new one takes its place. */
     if (replay->open &&
         (replay->count == 1 ||
          !rlvc_replay_linked(replay, rlvc_replay_slot(replay, replay->count - 2)))) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The database of interactions <s_t, a_t, r_{t+1}, s_{t+1}, e_t> (section 4.2.1): a ring of slots.
  *
- * A slot holds a percept s_t and, once it was acted upon, what came of it. Slots stand in order of
- * time; position 0 is the oldest. The percept of position p + 1 is s' of the interaction at p, so
- * that two successive interactions share it, except where the interaction at p was terminated: then
- * there is no s', and p + 1 begins another episode. A truncated or interrupted episode ends with a
- * slot that holds its last s' and no interaction.
+ * A slot holds a percept s_t and, after the action, the rest of the interaction. Slots are in order
+ * of time; position 0 is the oldest. The percept of position p + 1 is s' of the interaction at p,
+ * so that two successive interactions share it, except where the interaction at p was terminated:
+ * then there is no s', and p + 1 begins another episode. A truncated or interrupted episode ends
+ * with a slot that holds its last s' and no interaction.
  *
  * Invariants: every slot with an interaction that was not terminated has a successor; a slot
  * without one is the s' of the slot before it, or the current percept; position 0 holds an

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Sorting samples by key, in place and in slices: a radix sort from the highest differing bit down,
- * with insertion for short runs. Samples of equal keys come out in an order that depends on nothing
- * but the input. sort.c tells how. */
+ * with insertion for short runs. The order of samples with equal keys depends only on the input.
+ * See sort.c. */
 #ifndef RLVC_SRC_SORT_H
 #define RLVC_SRC_SORT_H
 

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* The aliasing criterion (section 4.2.2): what a class's samples are told apart by.
+/* The aliasing criterion (section 4.2.2): the target of each sample.
  *
- * A class is aliased if, after the same action, its percepts meet with different targets. The
- * target of the interaction at time t is
+ * A class is aliased if, after the same action, its percepts have different targets. The target of
+ * the interaction at time t is
  *   returns    R_t^k, where it is defined (definitions 1 and 2);
  *   residual   r_{t+1} + gamma V(C(s_{t+1})), and r_{t+1} alone where the episode terminated: the
  *              right-hand side of Bellman's equation (2) for the sample.
- * Whether two targets differ is exact for returns. Under the residual criterion V is only known
- * within the solver's tolerance, so that targets nearer than twice that tell nothing apart. */
+ * For returns, targets are compared exactly. Under the residual criterion V is only known within
+ * the solver's tolerance, so that targets closer than twice the tolerance count as equal. */
 #ifndef RLVC_SRC_TARGETS_H
 #define RLVC_SRC_TARGETS_H
 
 #include "returns.h"
 #include "../tree/values.h"
 
-/* A third key beside the two criteria's: the class of s', by which the model of the class-level
- * process counts its transitions; RLVC_NO_CLASS where the episode terminated. */
+/* A third kind of key besides the two criteria: the class of s', by which the model counts
+ * transitions. RLVC_NO_CLASS where the episode terminated. */
 #define RLVC_TARGET_SUCCESSOR 2u
 
 typedef struct rlvc_target_input {
@@ -44,7 +44,8 @@ uint32_t rlvc_target_step(rlvc_target_cursor *target, const rlvc_target_input *i
 uint32_t rlvc_target_key(float target);
 float rlvc_target_of(uint32_t key);
 
-/* Do two keys, the lower of which is the lowest of its cluster, tell their samples apart? O(1). */
+/* Do two keys, the lower of which is the lowest of its cluster, stand for distinct targets? O(1).
+ */
 int rlvc_target_distinct(const rlvc_target_input *input, uint32_t lowest, uint32_t key);
 
 #endif

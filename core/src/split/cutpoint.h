@@ -3,8 +3,8 @@
  *
  * With the samples sorted by target, a column has a bit for each sample (1: it exhibits the
  * feature), and the cutpoint `below = i` makes the 2 x 2 table of x present and y absent samples, x
- * + y = i, below it. cutpoint.c tells how most cutpoints are passed over unseen, and why the answer
- * is still that of a sweep over all of them. By ranks no cutpoint is sought: the column's score is
+ * + y = i, below it. cutpoint.c says how most cutpoints are skipped, and why the result is
+ * still that of a sweep over all of them. By ranks no cutpoint is sought: the column's score is
  * the statistic of rank_sum.h. */
 #ifndef RLVC_SRC_CUTPOINT_H
 #define RLVC_SRC_CUTPOINT_H

@@ -157,7 +157,7 @@ static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input
 }
 
 /* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered
- * into clusters from the lowest up as targets.h tells them apart. */
+ * into clusters from the lowest up; targets.h says which are distinct. */
 static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, uint32_t budget) {
     rlvc_group *group = &input->space->group[search->action];
     const rlvc_sample *sample = search->view.sample + group->begin;

@@ -1,33 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* Class refinement (section 4.2.3): the best feature for one class, and whether it is real (4.2.4).
+/* Class refinement (section 4.2.3): the best feature for one class, and its significance (4.2.4).
  *
- * The samples of each action are a group. A group is sorted by target once; its cutpoints lie
- * between neighbours whose targets are distinct, and are kept as a string of bits. Each candidate
+ * The samples of each action are a group. A group is sorted by target once. Its cutpoints lie
+ * between neighbours with distinct targets, and are kept as a string of bits. Each candidate
  * feature becomes a column of bits in the order of the samples, 1 where the sample's percept
- * exhibits it; running counts over column and cutpoints then give every 2 x 2 table. With N
- * samples, F features and C cutpoints that costs O(N + F N / 64 + F C) beside detecting, not O(F N
- * C). Columns are made for a block of features at a time.
+ * exhibits it. Running counts over column and cutpoints then give every 2 x 2 table. With N
+ * samples, F features and C cutpoints that costs O(N + F N / 64 + F C) besides detecting, instead
+ * of O(F N C). Columns are made for one block of features at a time.
  *
- * By ranks a feature has instead one statistic in each group (rank_sum.h), which is its score, its
- * evidence and, with a degree of freedom, its test; a group that has cutpoints then counts as one
- * of C = 1 below.
+ * By ranks a feature has one statistic in each group instead (rank_sum.h). It is the score, the
+ * evidence and, with one degree of freedom, the test. A group with cutpoints then counts as C = 1.
  *
  * The evidence of a feature and a cutpoint in a group is its score times the samples of the group.
- * Two features may win:
+ * Two features are tested:
  *
- *   per action the one with the most evidence at one cutpoint of one group; of equals the lower
- *              action, then the earlier feature, then the lower cutpoint. Its table is tested
- *              (table_test.h), its p-value corrected by F times the sum of the groups' C.
- *   pooled     the one with the most evidence summed over the groups, in each at the cutpoint that
- *              is best there; of equals the earlier feature. The statistics of its tables
- *              (table_test.h) are added, with a degree of freedom for each group that it divides;
- *              its p-value is corrected by F times the product of their C. For what tells two
- *              situations apart mostly shows after each action, a little.
+ *   per action   the one with the most evidence at one cutpoint of one group; ties: the lower
+ *                action, then the earlier feature, then the lower cutpoint. Its table is tested
+ *                (table_test.h). Its p-value is corrected by F times the sum of the groups' C.
+ *   pooled       the one with the most evidence summed over the groups, in each at its best
+ *                cutpoint; ties: the earlier feature. The statistics of its tables (table_test.h)
+ *                are added, with a degree of freedom for each group that it divides. Its p-value is
+ *                corrected by F times the product of their C. Two situations mostly differ a little
+ *                after each action, and this test adds that up.
  *
- * The lower p-value is the split's. Where there is more than one group, so that two tests were
- * made, it is corrected by 2 (all these corrections are Bonferroni's). F counts the features that
- * divide some group. Under the returns criterion a class has one group, its greedy action's, and
- * the split is the published one. */
+ * The split has the lower p-value. With more than one group both tests are made, and the p-value is
+ * corrected by 2 (all these corrections are Bonferroni's). F counts the features that divide some
+ * group. Under the returns criterion a class has one group, of its greedy action, and the split is
+ * the published one. */
 #ifndef RLVC_SRC_SPLIT_SEARCH_H
 #define RLVC_SRC_SPLIT_SEARCH_H
 
@@ -48,7 +47,7 @@ typedef struct rlvc_group {
 /* What a p-value is charged: a sum of dozens of terms (chi2.c, table_test.c). */
 #define RLVC_TEST_UNITS RLVC_BUDGET_MIN
 
-/* What the groups so far say about one feature of the block, together. */
+/* Evidence for one feature of the block, pooled over the groups so far. */
 typedef struct rlvc_pooled {
     float evidence;
     float statistic;
@@ -56,7 +55,7 @@ typedef struct rlvc_pooled {
     uint32_t degrees;
 } rlvc_pooled;
 
-/* The best feature alone. */
+/* The best feature of one action. */
 typedef struct rlvc_per_action {
     float evidence;
     float score;
@@ -180,7 +179,7 @@ rlvc_status rlvc_split_search_single(rlvc_split_cursor *search, const rlvc_split
 void rlvc_split_search_mark(const rlvc_split_cursor *search, uint32_t word[10]);
 
 /* Once done: fills action, samples, log_tests, score and log_p of *about.
- * @return the feature, in the workspace; null if there is none to tell the samples apart.
+ * @return the feature, in the workspace; null if no feature separates the samples.
  * O(degrees). */
 const void *rlvc_split_search_result(const rlvc_split_cursor *search, const rlvc_workspace *space,
                                      rlvc_split *about);

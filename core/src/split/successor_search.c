@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The search for a feature that tells successors apart: see successor_search.h.
+/* The search for a feature that predicts the successors: see successor_search.h.
  *
  * Phases: the candidates are asked for (PROPOSE), and the column of each f is made (NOW). Then, for
  * each g, its column over the successors (NEXT), in the place of the cutpoints, and, for each f and

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Do the samples that exhibit a feature rank otherwise than those that do not? The rank-sum test
- * (Wilcoxon 1945, Mann and Whitney 1947) of one presence column, without a cutpoint.
+/* The rank-sum test (Wilcoxon 1945, Mann and Whitney 1947) of one presence column: do the samples
+ * that exhibit a feature have higher or lower targets than the others? It needs no cutpoint.
  *
  * With the samples sorted by target, a cluster of targets that count as equal takes the places
  * [s, e), and each of its t = e - s samples the mean of their ranks: twice that less one is s + e.

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Is a 2 x 2 table more than chance (section 4.2.4)? Pearson's chi-square is an approximation for
- * large counts. Of a table by itself, Fisher's exact test takes its place where a cell is expected
- * to hold fewer than five.
+/* Significance of a 2 x 2 table (section 4.2.4). Pearson's chi-square is an approximation for large
+ * counts. A single table is tested by Fisher's exact test if an expected count is below five.
  *
- * In a sum of tables exact p-values would waste evidence, as a small table has but a few of them.
- * There Pearson's statistic serves down to one expected (Cochran 1954). Below, the likelihood ratio
- * G^2 = 2 sum O ln(O / E) = 2 ln 2 N gain takes its place: the counts of what is rare are
- * Poisson's, whose tails it follows (3 where 0.1 are expected: p = 1.5e-4, by G^2 1.3e-4, by
- * chi-square 5e-20). */
+ * In a sum of tables exact p-values would waste evidence, since a small table has few possible
+ * values. There Pearson's statistic is used down to an expected count of one (Cochran 1954). Below,
+ * the likelihood ratio G^2 = 2 sum O ln(O / E) = 2 ln 2 N gain is used. Rare counts have Poisson's
+ * law, whose tails it follows: for 3 where 0.1 are expected p is 1.5e-4, by G^2 1.3e-4, by
+ * chi-square 5e-20. */
 #ifndef RLVC_SRC_TABLE_TEST_H
 #define RLVC_SRC_TABLE_TEST_H
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a learning step under way is, in a few words, and going there again.
+/* Marks: the position of a learning step under way in a few words, and how to restore it.
  *
- * The tables that a phase works on (keys, sorted samples, bit columns, transitions) all follow from
- * the ring, the labels, the tree and the values, so none of them is saved. What is saved is a mark:
- * how far the cursor of the phase has come. To resume is to do the phase anew, in the smallest
- * steps there are, until the cursor has come as far. Every state that a budget can stop at lies on
- * that way, since a slice ends only between two smallest steps; and what is not on it is refused,
- * so that nothing which is loaded ever becomes an index. */
+ * The tables of a phase (keys, sorted samples, bit columns, transitions) follow from the ring, the
+ * labels, the tree and the values, so none of them is saved. What is saved is a mark: how far the
+ * cursor of the phase is. To resume is to repeat the phase in the smallest steps until the cursor
+ * is at the mark. A budget only ends between two smallest steps, so every saved state is on that
+ * way. A mark that is not reached is refused. So nothing that is loaded ever becomes an index. */
 #ifndef RLVC_SRC_CURSOR_MARKS_H
 #define RLVC_SRC_CURSOR_MARKS_H
 
