@@ -167,6 +167,27 @@ def test_vectors(name):
     assert caught.value.run.agent.statistics.interactions > 20
 
 
+@pytest.mark.parametrize("fault", ["final_obs", "batch", "fewer"])
+def test_vectors_whose_observations_are_missing(fault):
+    mode = gymnasium.vector.AutoresetMode.SAME_STEP
+    envs = gymnasium.vector.SyncVectorEnv([Ring for _ in range(3)], autoreset_mode=mode)
+    step = envs.step
+
+    def stepped(actions):
+        observation, *rest, info = step(actions)
+        if fault == "final_obs":
+            info.pop("final_obs", None)
+        elif envs.envs[0].steps > 7:
+            observation = None if fault == "batch" else observation[:2]
+        return observation, *rest, info
+
+    envs.step = stepped
+    with pytest.raises(
+        errors.EnvError, match="final_obs" if fault == "final_obs" else "observations"
+    ):
+        rlvc.learn(envs, 1000, seed=1)
+
+
 def test_the_run_outlives_what_the_environment_raises():
     class Broken(Ring):
         def step(self, action):
@@ -269,3 +290,28 @@ def test_runs_are_pickled(space):
         pickle.dumps(run.agent.compact())
     with pytest.raises(TypeError, match="batch"):
         pickle.dumps(run.agent.batch(2))
+
+
+@pytest.mark.parametrize("value", [-1, 2**32 - 1, 1025, 1.5, "x", None, True])
+def test_mazes_of_other_sizes(value):
+    from rlvc import envs
+
+    with pytest.raises(errors.ConfigError, match="distractors"):
+        envs.BinaryGridworld(distractors=value)
+    with pytest.raises(errors.ConfigError, match="distractors"):
+        envs.BinaryGridworld().maze.percepts(value)
+    for slip in ("x", np.nan, 2.0, -0.1, None, [0.1, 0.2]):
+        with pytest.raises(errors.ConfigError, match="slip"):
+            envs.BinaryGridworld(slip=slip)
+    for maze in (5, b"..*", "", "x"):
+        with pytest.raises(errors.MazeError):
+            envs.BinaryGridworld(maze)
+
+
+def test_what_cannot_be_drawn():
+    from rlvc import plot
+
+    for source in (5, None, [], {"runs": 5}, {"runs": []}, {"runs": [3]}):
+        for draw in plot.KINDS.values():
+            with pytest.raises(errors.RunError):
+                draw(source)

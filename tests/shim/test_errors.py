@@ -173,6 +173,7 @@ REENTRIES = {
     "act_many": lambda agent: agent.act_many(np.zeros((2, 1), np.uint8)),
     "batch": lambda agent: agent.batch(2).act(),
     "prune": lambda agent: agent.prune(),
+    "abandon": lambda agent: agent.abandon(),
     "print": lambda agent: agent.print(),
     "export_c": lambda agent: agent.export_c(),
     "close": lambda agent: agent.close(),
@@ -387,6 +388,33 @@ def test_busy(walk):
     while not agent.learn(64).done:
         pass
     agent.observe(0, 0.0, bytes(1))
+
+
+def test_a_step_that_is_given_up(walk):
+    agent = walk(capacity=50)
+    agent.learn(64)
+    agent.abandon()
+    for _ in range(100):
+        agent.observe(0, 0.0, bytes(1))
+    assert agent.statistics.step == 0
+    assert agent.learn().done
+    agent.abandon()
+    agent.close()
+    with pytest.raises(errors.ClosedError):
+        agent.abandon()
+
+
+def test_a_method_that_goes_on_failing_stops_nobody(walk):
+    domain = Corridor()
+    agent = walk(domain, capacity=50)
+    domain.fault = ("exhibits", trouble)
+    with pytest.raises(Trouble):
+        agent.learn()
+    for _ in range(100):
+        agent.observe(0, 0.0, bytes(1))
+    domain.fault = None
+    assert agent.learn().done
+    agent.check()
 
 
 @pytest.mark.parametrize("budget", [0, 63, -1, 2**32, 0.5, "all"])

@@ -16,8 +16,10 @@ import signal
 import subprocess
 import sys
 
+import gymnasium
 import numpy as np
 import pytest
+from gymnasium import spaces
 from test_errors import Batched, Corridor, Own
 
 import rlvc
@@ -118,6 +120,35 @@ def test_calls_that_change_nothing(walk, ctrl_c, make, what):
         if what != "act":
             assert agent.snapshot() == wanted, number
     agent.close()
+
+
+class Coin(gymnasium.Env):
+    observation_space, action_space = spaces.Discrete(2), spaces.Discrete(2)
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.side = int(self.np_random.integers(2))
+        return self.side, {}
+
+    def step(self, action):
+        return self.side, float(action == self.side), True, False, {}
+
+
+def test_learning_from_an_environment(ctrl_c):
+    """It ends early with a run that can be used, or, before anything was learnt, with KeyboardInterrupt."""
+    runs = []
+
+    def learn():
+        runs.append(rlvc.learn(Coin(), 30, seed=1, every=15))
+        if runs[-1].interrupted:
+            raise KeyboardInterrupt
+
+    for number in chosen(ctrl_c(0, learn), 60):
+        ctrl_c(number, learn)
+        runs[-1].agent.check()
+        assert runs[-1].act(1) in (0, 1)
+        assert runs[-1].agent.statistics.interactions <= 30
+    assert any(run.interrupted for run in runs)
 
 
 @unclosed

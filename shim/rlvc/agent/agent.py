@@ -329,6 +329,24 @@ class Agent(Queries):
             if progress.done or budget is not None:
                 return Progress(work, progress.rounds, progress.splits, bool(progress.done))
 
+    def abandon(self) -> None:
+        """Give up a learning step that is under way; the next :meth:`learn` begins another.
+
+        For a step that cannot be finished, since a method of the domain goes on raising, or for one
+        that was interrupted while interactions go on. Splits made so far stay.
+
+        Raises
+        ------
+        ReenteredError
+            The agent is in a call.
+
+        Notes
+        -----
+        After a :meth:`learn` that raised, :meth:`begin` and :meth:`observe` do the same where they
+        would otherwise raise BusyError. Time is O(capacity + classes).
+        """
+        self._check(self._long("rlvc_learn_abandon"))
+
     def prune(self, tolerance: float = 0.0, deviations: float = 0.0) -> int:
         """Remove tests that the stored interactions do not support (section 7).
 

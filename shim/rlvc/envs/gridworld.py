@@ -14,6 +14,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from .. import _native, files
+from ..checks import real, whole
 from ..errors import ConfigError, MazeError
 from .maze import Maze
 
@@ -44,13 +45,10 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         if render_mode not in (None, "ansi"):
             raise ConfigError(f"render_mode: {render_mode!r} is not None or 'ansi'")
         self.maze = Maze(maze)
-        self.distractors = distractors
-        self.slip = slip
+        self.distractors = whole("distractors", distractors, 0, _native.BITS_MAX)
+        self.slip = real("slip", slip)
         self.render_mode = render_mode
-        if (
-            not 0 <= distractors <= _native.BITS_MAX
-            or self.maze.bits(distractors) > _native.BITS_MAX
-        ):
+        if self.maze.bits(self.distractors) > _native.BITS_MAX:
             raise ConfigError(f"distractors: {distractors}: more than {_native.BITS_MAX} bits")
         self.action_space = spaces.Discrete(4)
         self._world = _native.Gridworld()

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import whole
 from ..errors import MazeError
 
 _CELLS_MAX = 256 * 256
@@ -39,6 +40,8 @@ class Maze:
     """
 
     def __init__(self, text: str | None = None) -> None:
+        if text is not None and not isinstance(text, str):
+            raise MazeError(f"maze: {text!r:.80} is not text")
         if text is None:
             self.native = _native.call.rlvc_shim_sutton()[0]
         else:
@@ -63,6 +66,7 @@ class Maze:
 
     def bits(self, distractors: int) -> int:
         """Return the number of bits of a percept."""
+        distractors = whole("distractors", distractors, 0, _native.BITS_MAX)
         return int(_native.call.rlvc_shim_maze_bits(ctypes.byref(self.native), distractors))
 
     def percepts(self, distractors: int, seed: int = 0) -> npt.NDArray[np.uint8]:
@@ -79,6 +83,8 @@ class Maze:
         -------
         ndarray of uint8, [height * width, ceil(bits / 8)]
         """
+        distractors = whole("distractors", distractors, 0, _native.BITS_MAX)
+        seed = whole("seed", seed, 0, 2**64 - 1)
         cells = self.width * self.height
         percepts = np.zeros((cells, (self.bits(distractors) + 7) // 8), np.uint8)
         random = _native.GridworldRandom(seed)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import EnvError
 from . import boundary
 
 
@@ -37,7 +38,13 @@ class Environment:
             return [batch]
         from gymnasium.vector.utils import iterate
 
-        return list(iterate(self.env.observation_space, batch))
+        try:
+            observations = list(iterate(self.env.observation_space, batch))
+        except Exception as error:  # whatever Gymnasium raises
+            raise EnvError(f"observations: {batch!r:.80} cannot be taken apart: {error}") from error
+        if len(observations) != self.count:
+            raise EnvError(f"observations: {len(observations)}, expected {self.count}")
+        return observations
 
     def step(self, actions: npt.NDArray[Any]) -> tuple[list[Any], Any, Any, Any]:
         """Step every environment; return s', rewards, terminated and truncated.
@@ -55,6 +62,8 @@ class Environment:
         over = terminated | truncated
         reached = self.split(following)
         if self.same_step and over.any():
+            if not isinstance(info, dict) or "final_obs" not in info:
+                raise EnvError("info has no final_obs, which same-step autoreset must give")
             for i in np.flatnonzero(over):
                 reached[i] = info["final_obs"][i]
         elif self.manual and over.any():

@@ -36,8 +36,10 @@ def reports(source: Source) -> list[dict[str, Any]]:
         source = _report.make(source)
     elif isinstance(source, Agent):
         source = {"tree": source.tree}
+    if not isinstance(source, dict):
+        raise RunError(f"a report, a file, a run or an agent is drawn, not {type(source).__name__}")
     runs = source.get("runs", [source])
-    if not runs:
+    if not isinstance(runs, list) or not runs or not all(isinstance(run, dict) for run in runs):
         raise RunError("the report has no run")
     return [_with_tables({**source, **run}) for run in runs]
 
