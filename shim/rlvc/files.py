@@ -95,8 +95,8 @@ def replace(path: str | Path, content: bytes) -> None:
     Raises
     ------
     StoreError
-        It cannot be written, or is a link, a folder, a FIFO or a device. The old file is still
-        there.
+        It cannot be written, or is write-protected, a link, a folder, a FIFO or a device. The old
+        file is still there.
     """
     try:
         _replace(path, content)
@@ -112,6 +112,8 @@ def _replace(path: str | Path, content: bytes) -> None:
         with contextlib.suppress(FileNotFoundError):
             mode = os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode
             _need_file(mode)
+            if not os.access(name, os.W_OK, dir_fd=folder):
+                raise PermissionError(errno.EACCES, "it is write-protected")
         _tidy(folder, name)
         temporary = _beginning(name) + secrets.token_hex(8)
         try:

@@ -46,6 +46,17 @@ def test_permissions_are_kept(agent, tmp_path):
     assert os.listdir(tmp_path) == ["agent"]
 
 
+def test_write_protection_is_respected(agent, tmp_path, monkeypatch):
+    agent.save(tmp_path / "agent")
+    before = (tmp_path / "agent").read_bytes()
+    agent.begin(bytes(1))
+    monkeypatch.setattr(os, "access", lambda *_, **__: False)  # root may write anything
+    with pytest.raises(errors.StoreError, match="write-protected"):
+        agent.save(tmp_path / "agent")
+    assert (tmp_path / "agent").read_bytes() == before
+    agent.save(tmp_path / "other")
+
+
 def others(folder):
     """What is no file."""
     (folder / "file").write_text("precious", encoding="utf-8")

@@ -213,7 +213,7 @@ def test_real_signals(walk, tmp_path):
     drawn, fired, results = random.Random(1), [], collections.Counter()
     before = signal.signal(signal.SIGALRM, interrupt)
     try:
-        while len(fired) < int(os.environ.get("RLVC_SIGNALS", "300")):
+        while len(fired) < int(os.environ.get("RLVC_SIGNALS", "150")):
             agent = rlvc.Agent.restore(Corridor(), config, snapshot)
             for call, right, longest in calls:
                 result = None

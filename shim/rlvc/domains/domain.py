@@ -38,8 +38,9 @@ class Domain(abc.ABC):
     Notes
     -----
     The methods must not use the agent that calls them, and must return the same result for the same
-    arguments. If one raises, the agent's method that called it raises the same exception. Two more
-    methods are optional:
+    arguments. If one raises, the agent's method that called it raises the same exception. What they
+    and ``pack`` return is checked. Types and sizes cannot be changed later. Two more methods are
+    optional:
 
     - ``detect(percepts, features)`` replaces calls of ``exhibits``. It takes percepts
       [n, *percept_shape] and features [m], and returns bool [n, m].
