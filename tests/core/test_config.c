@@ -120,6 +120,8 @@ static void test_choices(void **state) {
         {"continuing", &config.continuing, 1},
         {"successors", &config.successors, 1},
         {"explore", &config.explore, 1},
+        {"reserved", &config.reserved[0], 0},
+        {"reserved", &config.reserved[1], 0},
     };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
         for (uint32_t value = 0; value <= UINT8_MAX; value++) {

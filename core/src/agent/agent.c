@@ -50,12 +50,10 @@ rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain
     *agent = NULL;
     size_t needed = 0;
     rlvc_status status = rlvc_agent_size(config, domain, &needed);
+    if (status == RLVC_OK)
+        status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)
         return status;
-    if (!memory)
-        return RLVC_E_NULL;
-    if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
-        return RLVC_E_MEMORY;
     rlvc_arena arena = {(unsigned char *)memory, 0};
     rlvc_agent *made = memory;
     const rlvc_config copied_config = *config; /* they may lie in the block */

@@ -28,6 +28,15 @@ typedef struct rlvc_arena {
     uint64_t used;       /* bytes carved so far: 64 bits, so that no sum of sizes can wrap */
 } rlvc_arena;
 
+/* Can a caller's block hold `needed` bytes?
+ * @return RLVC_OK; RLVC_E_NULL: there is no block; RLVC_E_MEMORY: too small, or not aligned. O(1).
+ */
+static inline rlvc_status rlvc_arena_check(const void *memory, size_t bytes, size_t needed) {
+    if (!memory)
+        return RLVC_E_NULL;
+    return (uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed ? RLVC_E_MEMORY : RLVC_OK;
+}
+
 /* The next `count` items of `size` bytes, the whole rounded up to RLVC_ALIGNMENT; null when only
  * counting. O(1). */
 void *rlvc_arena_carve(rlvc_arena *arena, uint32_t count, uint32_t size);

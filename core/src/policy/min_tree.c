@@ -490,8 +490,8 @@ rlvc_status rlvc_min_tree(const rlvc_min_tree_task *task, void *memory, size_t b
     rlvc_status status = rlvc_min_tree_size(task, &needed);
     if (status == RLVC_OK && !rows_are_sound(task))
         status = RLVC_E_RANGE;
-    if (status == RLVC_OK && (bytes < needed || (uintptr_t)memory % RLVC_ALIGNMENT != 0))
-        status = RLVC_E_MEMORY;
+    if (status == RLVC_OK)
+        status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)
         return status;
     rlvc_arena arena = {(unsigned char *)memory, 0};

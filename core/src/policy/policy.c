@@ -318,12 +318,10 @@ rlvc_status rlvc_policy_make(rlvc_agent *agent, const rlvc_policy_config *config
         return RLVC_E_NULL;
     *policy = NULL;
     rlvc_status status = rlvc_policy_size(agent, config, &needed);
+    if (status == RLVC_OK)
+        status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)
         return status;
-    if (!memory)
-        return RLVC_E_NULL;
-    if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
-        return RLVC_E_MEMORY;
     const rlvc_policy_config copied = *config; /* it may lie in the block */
     (void)lay_out(&m, agent, &copied, memory, &needed);
     m.made.domain = agent->domain;
