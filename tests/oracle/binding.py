@@ -21,7 +21,8 @@ def struct(name, /, **fields):
 
 
 Domain = struct("Domain", ctx=POINTER, percept_bytes=U32, feature_bytes=U32, features_max=U32,
-                exhibits=POINTER, candidates=POINTER, detect=POINTER, oracle=POINTER, name=POINTER)
+                exhibits=POINTER, candidates=POINTER, detect=POINTER, oracle=POINTER, name=POINTER,
+                check_percept=POINTER, check_feature=POINTER)
 Config = struct("Config", actions=U32, capacity=U32, classes=U32, features_at_once=U32,
                 min_samples=U32, max_sweeps=U32, seed=U32, criterion=U8, score=U8, solver=U8,
                 continuing=U8, successors=U8, explore=U8, reserved=U8 * 2, discount=FLOAT, epsilon=FLOAT, alpha=FLOAT,
