@@ -81,13 +81,15 @@ static int choke(void *ctx, const void *percept, const void *feature, uint8_t *p
  * in between. */
 static void test_unbearable_percept(void **state) {
     (void)state;
-    for (uint32_t loads = 0; loads < 2; loads++) {
+    for (uint32_t lives = 0; lives < 6; lives++) {
         rlvc_domain domain;
         rlvc_config config;
         rlvc_agent *agent;
         rlvc_progress progress;
         const rlvc_choice choice = {0, 0};
-        uint32_t failed = 0, refused = 0;
+        const uint32_t episodes = lives % 3u; /* of so many steps; 0: without end */
+        const int loads = lives >= 3u;
+        uint32_t failed = 0, refused = 0, percept = 0;
         poison = 0xffffffu;
         assert_int_equal(rlvc_bits_domain(24, &domain), RLVC_OK);
         exhibits = domain.exhibits;
@@ -102,10 +104,16 @@ static void test_unbearable_percept(void **state) {
                          RLVC_OK);
         rlvc_store store = medium_store(&m, &config, &domain, 0);
         for (uint32_t i = 0; i < 400u; i++) {
-            uint32_t percept = i == 57u ? poison : i * 7u % 16u;
-            refused += rlvc_begin(agent, &percept) != RLVC_OK;
-            refused += rlvc_observe(agent, choice, (float)(percept & 1u), &percept,
-                                    i % 2u ? RLVC_TERMINATED : RLVC_TRUNCATED) != RLVC_OK;
+            const uint32_t next = i == 57u ? poison : (i + 1u) * 7u % 16u;
+            const uint32_t phase = episodes ? i % episodes : i;
+            if (phase == 0) {
+                percept = i * 7u % 16u;
+                refused += rlvc_begin(agent, &percept) != RLVC_OK;
+            }
+            refused +=
+                rlvc_observe(agent, choice, (float)(percept & 1u), &next,
+                             phase + 1u == episodes ? RLVC_TRUNCATED : RLVC_GOES_ON) != RLVC_OK;
+            percept = next;
             if (i % 20u != 0)
                 continue;
             failed += rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress) == RLVC_E_CALLBACK;
@@ -119,7 +127,7 @@ static void test_unbearable_percept(void **state) {
         assert_true(failed > 0 && failed < 10u);
         assert_int_equal(refused, 0);
         assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
-        assert_int_equal(agent->tree.classes, 2);
+        assert_true(agent->tree.classes >= 2u);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "agent/state.h"
 #include "rlvc/descriptors.h"
 #include "rlvc/rlvc.h"
 
@@ -326,6 +327,22 @@ static void test_each_write_of_numbers_failing(void **unused) {
     (void)fail_each_write(make_of_numbers(DIAGONAL, 0, 3));
 }
 
+static int no_name(void *ctx, const void *feature, char *text, uint32_t room) {
+    (void)ctx;
+    (void)feature;
+    (void)text;
+    (void)room;
+    return 1;
+}
+
+static void test_failing_name(void **unused) {
+    (void)unused;
+    rlvc_agent *agent = make_of_numbers(PARTS, 0, 3);
+    agent->domain.name = no_name;
+    memset(&exported, 0, sizeof exported);
+    assert_int_equal(rlvc_export_c(agent, "t", keep, &exported, NULL), RLVC_E_CALLBACK);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refusals),
@@ -337,6 +354,7 @@ int main(void) {
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_oblique_numbers),
         cmocka_unit_test(test_each_write_of_numbers_failing),
+        cmocka_unit_test(test_failing_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

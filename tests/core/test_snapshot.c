@@ -296,11 +296,15 @@ static void test_unsound_fields(void **state) {
         {values + 56u + 6u, 1, 2}, /* ... or that was split from another */
         {values + 8u, NOT_A_NUMBER, 4},
         {values + 12u, NOT_A_NUMBER, 4},
-        {explorer + 1u, 4, 1}, /* the last action */
-        {explorer + 2u, 4, 1}, /* an action that leads on */
-        {learner, 10, 1},      /* phase */
-        {learner, 2, 1},       /* that this solver does not have */
-        {learner + 30u, 1, 4}, /* a mark between two steps */
+        {values, 0x7f7fffffu, 4}, /* finite, but more than any return, */
+        {values, 0xff7fffffu, 4},
+        {values + 8u, 0x7f7fffffu, 4},
+        {values + 12u, 0x5a000000u, 4}, /* or than any reward */
+        {explorer + 1u, 4, 1},          /* the last action */
+        {explorer + 2u, 4, 1},          /* an action that leads on */
+        {learner, 10, 1},               /* phase */
+        {learner, 2, 1},                /* that this solver does not have */
+        {learner + 30u, 1, 4},          /* a mark between two steps */
     };
     assert_int_equal(load_forged(&store, AT_RUN, 0, 4), RLVC_OK);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -373,6 +377,15 @@ static void test_resume_improving(void **state) {
     assert_int_equal(resumed.changed, 1);
     rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
     assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
+    for (uint32_t i = 7; i < 9; i++) { /* a sum of no terms */
+        word[i] = 0x3f800000u;
+        rlvc_solver_begin(&resumed, RLVC_SOLVER_POLICY_ITERATION);
+        assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
+        word[i] = 0;
+    }
+    word[9] = 0x80000000u; /* more terms than there can be */
+    assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
+    word[9] = 0;
     word[0] = 2; /* no phase */
     rlvc_solver_begin(&resumed, RLVC_SOLVER_POLICY_ITERATION);
     assert_false(rlvc_solver_restore(&resumed, &input, &values, word));

@@ -172,10 +172,15 @@ int rlvc_solver_restore(rlvc_solver_cursor *solver, const rlvc_solver_input *inp
     solver->sum.sum = rlvc_float_of(word[7]);
     solver->sum.rest = rlvc_float_of(word[8]);
     solver->sum.weight = word[9];
-    for (uint32_t i = 5; i < 9; i++) {
+    for (uint32_t i = 5; i < 7; i++) {
         if (!(magnitude(rlvc_float_of(word[i])) <= FLT_MAX))
             return 0;
     }
-    return solver->phase <= solver->improve && solver->changed <= solver->improve &&
-           word[0] >> 16 == 0 && is_within(solver, input, values);
+    for (uint32_t i = 7; i < 9; i++) { /* of a sum of values */
+        if (!(magnitude(rlvc_float_of(word[i])) <= RLVC_VALUE_MAX * (float)word[9]))
+            return 0;
+    }
+    return word[9] <= INT32_MAX && solver->phase <= solver->improve &&
+           solver->changed <= solver->improve && word[0] >> 16 == 0 &&
+           is_within(solver, input, values);
 }

@@ -314,10 +314,23 @@ static int flags_are_sound(const rlvc_replay *replay) {
     return 1;
 }
 
-static int rewards_are_numbers(const rlvc_agent *agent) {
+static int within(float x, float most) {
+    return x >= -most && x <= most;
+}
+
+/* Are the values within what learning can make of rewards, so that it overflows no sum? Without an
+ * incremental solver the pairs hold mean rewards, or what is nearer to 0. */
+static int values_are_sound(const rlvc_agent *agent) {
+    const rlvc_values *values = &agent->values;
     const uint32_t pairs = agent->tree.classes * agent->config.actions;
+    const float most =
+        rlvc_is_incremental(&agent->config) ? RLVC_VALUE_MAX : 2.0f * RLVC_REWARD_MAX;
+    for (uint32_t c = 0; c < agent->tree.classes; c++) {
+        if (!within(values->value[c], RLVC_VALUE_MAX))
+            return 0;
+    }
     for (uint32_t pair = 0; pair < pairs; pair++) {
-        if (!is_number(agent->values.pair.reward[pair]))
+        if (!within(values->q[pair], RLVC_VALUE_MAX) || !within(values->pair.reward[pair], most))
             return 0;
     }
     return 1;
@@ -331,7 +344,7 @@ static int counters_are_sound(const rlvc_agent *agent) {
 
 /* Does everything that was loaded hold together? */
 static int is_sound(rlvc_agent *agent) {
-    return flags_are_sound(&agent->replay) && rewards_are_numbers(agent) &&
+    return flags_are_sound(&agent->replay) && values_are_sound(agent) &&
            counters_are_sound(agent) && rlvc_agent_check(agent) == RLVC_OK &&
            rlvc_cursor_marks_check(agent);
 }

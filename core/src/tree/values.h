@@ -6,6 +6,10 @@
 
 #include "../base/arena.h"
 
+/* No value that is learnt is further from 0: returns are sums of at most 2^31 rewards, or, with an
+ * incremental solver, grow by a reward each interaction. 2^31 of them can be summed. */
+#define RLVC_VALUE_MAX 1e28f
+
 /* Tables with more than one content, at different times. */
 typedef union rlvc_pair_floats {
     float *reward;   /* [classes_max][actions] mean reward: from the model to the solution */

@@ -1,0 +1,326 @@
+/* SPDX-License-Identifier: MIT */
+/* Calls the agent's functions in any order, on any domain, with callbacks, writes and stores that
+ * fail now and then. The first bytes choose the domain and the config; each further one a call,
+ * with the arguments in the bytes after it. Whatever happens, the agent stays sound, and each call
+ * returns what its header says. */
+#include "rlvc/export.h"
+#include "rlvc/policy.h"
+#include "rlvc/snapshot.h"
+#include "world.h"
+
+#include <math.h>
+
+#define STORE_BYTES 32768u
+#define CALLS_MAX 300u
+
+/* ------------------------------------------------------------------ the input */
+
+static const uint8_t *input;
+static size_t input_left;
+
+static uint32_t next_below(uint32_t bound) {
+    if (input_left == 0)
+        return 0;
+    input_left--;
+    return *input++ % bound;
+}
+
+/* ------------------------------------------------------------------ what can fail */
+
+static struct {
+    rlvc_domain inner;
+    rlvc_agent *agent;   /* each callback calls it, and is refused */
+    uint32_t calls;      /* of callbacks; */
+    uint32_t fails_from; /* these fail: `failures` of them from this one on */
+    uint32_t failures;
+    uint32_t store_calls; /* likewise */
+    uint32_t store_fails;
+    int saved; /* a whole snapshot is there */
+    unsigned char store[STORE_BYTES];
+} world;
+
+static int callback_fails(void) {
+    if (world.agent) {
+        rlvc_choice choice;
+        rlvc_progress progress;
+        must(rlvc_act(world.agent, &choice) == RLVC_E_REENTERED);
+        must(rlvc_learn(world.agent, RLVC_BUDGET_MIN, &progress) == RLVC_E_REENTERED);
+        must(rlvc_learn_abandon(world.agent) == RLVC_E_REENTERED);
+    }
+    return world.calls++ - world.fails_from < world.failures;
+}
+
+static int exhibits(void *ctx, const void *percept, const void *feature, uint8_t *present) {
+    return callback_fails() || world.inner.exhibits(ctx, percept, feature, present);
+}
+
+static int candidates(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t room,
+                      void *features, uint32_t *written) {
+    return callback_fails() || world.inner.candidates(ctx, samples, first, room, features, written);
+}
+
+static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t n,
+                  const void *features, uint32_t m, uint64_t *columns) {
+    return callback_fails() || world.inner.detect(ctx, samples, first, n, features, m, columns);
+}
+
+static int name(void *ctx, const void *feature, char *text, uint32_t room) {
+    return callback_fails() || world.inner.name(ctx, feature, text, room);
+}
+
+static int write_text(void *ctx, const char *text, size_t bytes) {
+    (void)ctx;
+    (void)text;
+    (void)bytes;
+    return callback_fails();
+}
+
+static int store_fails(void) {
+    return ++world.store_calls == world.store_fails;
+}
+
+static int read_store(void *ctx, uint32_t offset, void *buffer, uint32_t bytes) {
+    (void)ctx;
+    must(offset + bytes <= STORE_BYTES);
+    memcpy(buffer, world.store + offset, bytes);
+    return store_fails();
+}
+
+static int write_store(void *ctx, uint32_t offset, const void *buffer, uint32_t bytes) {
+    (void)ctx;
+    must(offset + bytes <= STORE_BYTES);
+    if (store_fails())
+        return 1;
+    memcpy(world.store + offset, buffer, bytes);
+    return 0;
+}
+
+static const rlvc_store store = {NULL, STORE_BYTES / 2, read_store, write_store, NULL, NULL};
+
+/* ------------------------------------------------------------------ the agent */
+
+static rlvc_config config;
+static rlvc_domain domain;
+static uint64_t memory[2][1u << 14], policy_memory[1u << 14];
+static uint32_t held; /* the memory that the agent is in */
+static rlvc_agent *agent;
+
+static void choose_domain(void) {
+    world.inner = world_domain(next_below(4), next_below(2));
+    domain = world.inner;
+    domain.exhibits = exhibits;
+    domain.candidates = candidates;
+    domain.detect = domain.detect && next_below(2) ? detect : NULL;
+    domain.name = name;
+}
+
+static void choose_config(void) {
+    static const float discounts[] = {0.9f, 0.0f, 0.5f, 1.0f}, rates[] = {1.0f, 0.01f, 1e-6f};
+    must(rlvc_config_default(&config, &domain, 1u + next_below(4)) == RLVC_OK);
+    config.capacity = 1u + next_below(60);
+    config.classes = 1u + next_below(10);
+    config.features_at_once = 1u + next_below(64);
+    config.min_samples = 2u + next_below(6);
+    config.max_sweeps = 1u + next_below(60);
+    config.criterion = (uint8_t)next_below(2);
+    config.score = next_below(4) ? RLVC_SCORE_GAIN : RLVC_SCORE_RANKS;
+    config.solver = (uint8_t)next_below(4);
+    config.continuing = (uint8_t)next_below(2);
+    config.successors = (uint8_t)next_below(2);
+    config.explore = (uint8_t)next_below(2);
+    config.discount = discounts[next_below(4)];
+    config.epsilon = rates[next_below(3)];
+    config.alpha = rates[next_below(3)];
+    config.alpha_known = rates[next_below(3)];
+}
+
+/* A percept of any bytes, or one of the world's; in it, now and then, numbers that are none. */
+static int choose_percept(unsigned char percept[PERCEPT_MAX]) {
+    static const float odd[] = {NAN, INFINITY, -1e16f, 1e15f, -0.0f};
+    const uint32_t kind = next_below(8);
+    world_percept(&world.inner, next_below(CELLS), percept);
+    if (kind == 0)
+        for (uint32_t i = 0; i < domain.percept_bytes; i++)
+            percept[i] = (unsigned char)next_below(256);
+    if (kind == 1 && domain.percept_bytes >= 8u)
+        memcpy(percept + 4u * next_below(domain.percept_bytes / 4u), &odd[next_below(5)], 4);
+    return domain.check_percept == NULL || domain.check_percept(domain.ctx, percept) == 0;
+}
+
+/* ------------------------------------------------------------------ the calls */
+
+static void call_observe(const unsigned char *percept, int sound) {
+    const float rewards[] = {0.0f, 1.0f, -1e12f, 1e12f, NAN};
+    rlvc_choice choice = {0, 0};
+    rlvc_status status = rlvc_act(agent, &choice);
+    must(status == RLVC_OK || status == RLVC_E_ORDER || status == RLVC_E_CALLBACK);
+    must(choice.action < config.actions && choice.exploited <= 1u);
+    const uint32_t reward = next_below(5), end = next_below(4) ? 0 : next_below(4);
+    status = rlvc_observe(agent, choice, rewards[reward], percept, (uint8_t)end);
+    if (end > RLVC_TRUNCATED)
+        must(status == RLVC_E_RANGE);
+    else if (reward == 4u)
+        must(status == RLVC_E_REWARD);
+    else if (status == RLVC_E_PERCEPT)
+        must(!sound && end != RLVC_TERMINATED);
+    else
+        must(status == RLVC_E_ORDER || status == RLVC_E_BUSY || status == RLVC_E_CALLBACK ||
+             (status == RLVC_OK && (sound || end == RLVC_TERMINATED)));
+}
+
+static void call_learn(void) {
+    rlvc_progress progress;
+    uint32_t budget = next_below(4) ? 64u + 3u * next_below(256) : RLVC_BUDGET_UNBOUNDED;
+    rlvc_status status = rlvc_learn(agent, budget, &progress);
+    must(status == RLVC_OK || status == RLVC_E_CALLBACK);
+    must(progress.work <= budget && progress.done <= 1u);
+}
+
+static void call_predict(const unsigned char *percept) {
+    uint32_t class_id = 99, action = 99;
+    rlvc_status status = rlvc_predict(agent, percept, &class_id, &action);
+    if (status == RLVC_OK)
+        must(class_id < config.classes && action < config.actions);
+    else
+        must(status == RLVC_E_CALLBACK && class_id == 99u && action == 99u);
+}
+
+static void call_policy(const unsigned char *percept) {
+    rlvc_policy_config wanted;
+    rlvc_policy_info info;
+    rlvc_policy *policy;
+    size_t bytes;
+    uint32_t action;
+    must(rlvc_policy_default(agent, &wanted) == RLVC_OK);
+    wanted.percepts = 1u + next_below(64);
+    wanted.entries = 2u + next_below(200);
+    wanted.effort = 1u + 16u * next_below(200);
+    must(rlvc_policy_size(agent, &wanted, &bytes) == RLVC_OK && bytes <= sizeof policy_memory);
+    rlvc_status status = rlvc_policy_make(agent, &wanted, policy_memory, bytes, &policy, &info);
+    must((status == RLVC_OK) == (policy != NULL));
+    if (!policy)
+        return;
+    must(info.leaves >= 1u && info.leaves <= info.collapsed && info.collapsed <= info.classes);
+    world.agent = NULL; /* a policy's callbacks may call the agent */
+    status = rlvc_policy_act(policy, percept, &action);
+    must(status == RLVC_E_CALLBACK || (status == RLVC_OK && action < config.actions));
+    (void)rlvc_policy_print(policy, next_below(3), write_text, NULL);
+    (void)rlvc_policy_export_c(policy, "fuzz", write_text, NULL, NULL);
+    world.agent = agent;
+}
+
+static void call_save_and_load(void) {
+    rlvc_agent *loaded;
+    world.store_calls = 0;
+    world.store_fails = next_below(4) ? 0 : 1u + next_below(100);
+    rlvc_status status = rlvc_save(agent, &store);
+    must(status == RLVC_OK || status == RLVC_E_STORE);
+    world.saved |= status == RLVC_OK;
+    world.store_calls = 0;
+    world.store_fails = next_below(4) ? 0 : 1u + next_below(100);
+    world.agent = NULL;
+    status = rlvc_load(&config, &domain, memory[1u - held], sizeof memory[0], &store, &loaded);
+    world.agent = agent;
+    must((status == RLVC_OK) == (loaded != NULL));
+    if (status != RLVC_OK && status != RLVC_E_STORE)
+        must(!world.saved && (status == RLVC_E_EMPTY || status == RLVC_E_DAMAGED));
+    if (loaded && next_below(2)) {
+        agent = loaded;
+        held = 1u - held;
+        world.agent = agent;
+    }
+}
+
+static void call_show(void) {
+    rlvc_status status = rlvc_print(agent, next_below(3), write_text, NULL);
+    must(status == RLVC_OK || status == RLVC_E_CALLBACK);
+    status = rlvc_export_c(agent, "fuzz", write_text, NULL, NULL);
+    must(status == RLVC_OK || status == RLVC_E_CALLBACK || status == RLVC_E_CONFIG);
+}
+
+/* What can be asked of a sound agent has finite answers. */
+static void call_check(void) {
+    rlvc_statistics statistics;
+    must(rlvc_agent_check(agent) == RLVC_OK);
+    must(rlvc_stats(agent, &statistics) == RLVC_OK);
+    must(statistics.classes >= 1u && statistics.classes <= config.classes);
+    for (uint32_t c = 0; c < statistics.classes; c++) {
+        float value, q;
+        uint32_t action, samples;
+        must(rlvc_value(agent, c, &value, &action) == RLVC_OK);
+        must(value - value == 0.0f && action < config.actions);
+        for (uint32_t a = 0; a < config.actions; a++)
+            must(rlvc_q(agent, c, a, &q, &samples) == RLVC_OK && q - q == 0.0f);
+        if (c > 0)
+            must(rlvc_split_at(agent, c - 1u, NULL, NULL) == RLVC_OK);
+    }
+}
+
+static void call(void) {
+    unsigned char percept[PERCEPT_MAX];
+    const uint32_t which = next_below(16);
+    int sound = choose_percept(percept);
+    rlvc_status status;
+    uint32_t undone;
+    switch (which) {
+    case 0:
+        status = rlvc_begin(agent, percept);
+        must(sound ? status == RLVC_OK || status == RLVC_E_BUSY : status == RLVC_E_PERCEPT);
+        break;
+    case 1:
+        call_predict(percept);
+        break;
+    case 2:
+        call_policy(percept);
+        break;
+    case 3:
+        call_save_and_load();
+        break;
+    case 4:
+        call_show();
+        break;
+    case 5:
+        call_check();
+        break;
+    case 6:
+        status = rlvc_prune(agent, (float)next_below(3), (float)next_below(3), &undone);
+        must(status == RLVC_OK || status == RLVC_E_BUSY);
+        break;
+    case 7:
+        must(rlvc_learn_abandon(agent) == RLVC_OK);
+        break;
+    case 8:
+        world.fails_from = world.calls + next_below(64);
+        world.failures = next_below(40);
+        break;
+    case 9:
+    case 10:
+        call_learn();
+        break;
+    default:
+        call_observe(percept, sound);
+        break;
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    size_t bytes;
+    input = data;
+    input_left = size;
+    memset(&world, 0, sizeof world);
+    choose_domain();
+    choose_config();
+    rlvc_status status = rlvc_agent_size(&config, &domain, &bytes);
+    if (status != RLVC_OK) {
+        must(status == RLVC_E_CONFIG && bytes == 0);
+        return 0;
+    }
+    held = 0;
+    must(rlvc_agent_init(&config, &domain, memory[0], sizeof memory[0], &agent) == RLVC_OK);
+    world.agent = agent;
+    for (uint32_t i = 0; i < CALLS_MAX && input_left > 0; i++)
+        call();
+    world.failures = 0;
+    call_check();
+    return 0;
+}
