@@ -18,7 +18,8 @@ Domain = struct("Domain", ctx=ctypes.c_void_p, percept_bytes=ctypes.c_uint32,
                 detect=ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p,
                                         ctypes.c_uint32, ctypes.c_uint32, ctypes.c_void_p,
                                         ctypes.c_uint32, ctypes.c_void_p),
-                oracle=ctypes.c_void_p, name=ctypes.c_void_p)
+                oracle=ctypes.c_void_p, name=ctypes.c_void_p, check_percept=ctypes.c_void_p,
+                check_feature=ctypes.c_void_p)
 Samples = struct("Samples", percepts=ctypes.c_void_p, sample=ctypes.c_void_p,
                  percept_bytes=ctypes.c_uint32, count=ctypes.c_uint32)
 FEATURE = numpy.dtype([("cutpoint", "f4"), ("slope", "f4"), ("component", "u2"), ("other", "u2")])
