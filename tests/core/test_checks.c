@@ -269,12 +269,61 @@ static void test_no_checks(void **state) {
     assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
 }
 
+/* ------------------------------------------------------------------ callers and callbacks that are
+ * careless */
+
+static int (*bits_detect)(void *, const rlvc_samples *, uint32_t, uint32_t, const void *, uint32_t,
+                          uint64_t *);
+
+/* Sets every bit beyond the samples. */
+static int stray_detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t n,
+                        const void *features, uint32_t count, uint64_t *columns) {
+    int failed = bits_detect(ctx, samples, first, n, features, count, columns);
+    for (uint32_t j = 0; j < count && n < 64u; j++)
+        columns[j] |= UINT64_MAX << n;
+    return failed;
+}
+
+static void test_stray_bits(void **state) {
+    rlvc_config config;
+    rlvc_domain domain = bits_domain(3);
+    rlvc_tree_split split[2];
+    (void)state;
+    bits_detect = domain.detect;
+    for (uint32_t i = 0; i < 2; i++) {
+        rlvc_agent *agent = agent_of(&domain, &config);
+        live(agent, &domain);
+        assert_true(agent->tree.classes > 1u);
+        split[i] = agent->tree.split[0];
+        domain.detect = stray_detect;
+    }
+    assert_memory_equal(&split[0], &split[1], sizeof split[0]);
+}
+
+/* The config and the domain may lie where the agent is to be. */
+static void test_config_in_the_block(void **state) {
+    rlvc_config config;
+    const rlvc_domain domain = bits_domain(3);
+    rlvc_agent *agent = agent_of(&domain, &config);
+    (void)state;
+    for (uint32_t offset = 0; offset < 512u; offset += 64u) {
+        rlvc_config *inside = (rlvc_config *)(block + offset / 8u);
+        rlvc_domain *beside = (rlvc_domain *)(block + offset / 8u + 32u);
+        block_fill(block, 0xa5, sizeof block);
+        *inside = config;
+        *beside = domain;
+        assert_int_equal(rlvc_agent_init(inside, beside, block, sizeof block, &agent), RLVC_OK);
+        assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
+        assert_int_equal(agent->config.capacity, config.capacity);
+        live(agent, &domain);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_percepts),
-        cmocka_unit_test(test_features),
-        cmocka_unit_test(test_forged_snapshots),
-        cmocka_unit_test(test_no_checks),
+        cmocka_unit_test(test_percepts),         cmocka_unit_test(test_features),
+        cmocka_unit_test(test_forged_snapshots), cmocka_unit_test(test_no_checks),
+        cmocka_unit_test(test_stray_bits),       cmocka_unit_test(test_config_in_the_block),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
