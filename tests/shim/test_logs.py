@@ -154,6 +154,75 @@ def test_damaged_arrays(changes, said):
         rlvc.learn_from(arrays(**changes))
 
 
+ODD = [
+    None, 5, "x", [], {}, [[1], [1, 2]], object(), np.array(3), np.zeros(0), np.zeros((20, 0)), np.zeros((0, 2)),
+    np.zeros(19), np.zeros(21), np.zeros((20, 2), bool), np.zeros(20, bool), np.zeros((20, 2, 3)),
+    np.zeros((20, 40, 40)), np.zeros(20, "U3"), np.zeros(20, "S2"), np.zeros(20, "M8[s]"), np.zeros(20, "m8[s]"),
+    np.zeros(20, complex), np.zeros(20, [("a", "f4")]), np.full(20, np.nan), np.full(20, 300), np.full(20, -1),
+    np.full(20, 2**63, np.uint64), np.full(20, 1e300), np.full(20, 1e13),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["observations", "next_observations", "actions", "rewards", "terminated", "truncated", "exploited"],
+)  # fmt: skip
+def test_odd_arrays_are_read_or_refused(name):
+    """By an error of the package, and without a warning of numpy."""
+    good = {
+        "observations": np.zeros((20, 2)), "next_observations": np.zeros((20, 2)),
+        "actions": np.zeros(20, int), "rewards": np.zeros(20), "terminated": np.ones(20, bool),
+    }  # fmt: skip
+    refused = 0
+    for values in ODD:
+        try:
+            rlvc.learn_from({**good, name: values})
+        except errors.Error:
+            refused += 1
+    assert refused > len(ODD) / 2
+
+
+@pytest.mark.parametrize("log", [None, 5, (1, 2), [1], np.zeros(3), {1: 2}, b"log.csv"], ids=repr)
+def test_what_is_no_log(log):
+    with pytest.raises(errors.LogError):
+        rlvc.learn_from(log)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"actions": "x"}, {"actions": 0}, {"actions": 256}, {"steps": "1"}, {"steps": 0}, {"seed": "x"}, {"seed": -1},
+     {"thresholds": "x"}, {"nonsense": 1}, {"encoder": 3}],
+    ids=repr,
+)  # fmt: skip
+def test_numbers_of_the_caller(changes):
+    with pytest.raises(errors.ConfigError, match="cutpoints|" + next(iter(changes))):
+        rlvc.learn_from(arrays(), **changes)
+
+
+@pytest.mark.parametrize(("place", "bits"), [(6, 1), (8, 99)])
+def test_npz_that_cannot_be_unpacked(tmp_path, place, bits):
+    """Marked as encrypted, or compressed in an unknown way."""
+    file = tmp_path / "log.npz"
+    np.savez(file, **arrays())
+    content = bytearray(file.read_bytes())
+    entry = content.find(b"PK\x01\x02")
+    content[place] |= bits
+    content[entry + place + 2] |= bits
+    file.write_bytes(content)
+    with pytest.raises(errors.LogError, match="cannot be read as NPZ"):
+        rlvc.learn_from(file)
+
+
+def test_ctrl_c_keeps_what_was_learnt(monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rlvc.Agent, "learn", interrupted)
+    run = rlvc.learn_from(arrays())
+    assert run.interrupted
+    assert run.agent.statistics.interactions == len(arrays()["actions"])
+
+
 def test_actions_out_of_range():
     with pytest.raises(errors.LogError, match=r"index \d+: 1 is not in \[0, 1\)"):
         rlvc.learn_from(arrays(), actions=1)

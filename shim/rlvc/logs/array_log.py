@@ -67,7 +67,8 @@ def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
     if count == 0:
         raise LogError(f"{where}: actions: there is no interaction")
     actions = _column(arrays, "actions", count, where, "iu").astype(np.int64)
-    rewards = _column(arrays, "rewards", count, where, "fiu").astype(np.float32)
+    with np.errstate(over="ignore"):  # checked() refuses what is out of range
+        rewards = _column(arrays, "rewards", count, where, "fiu").astype(np.float32)
     terminated = _column(arrays, "terminated", count, where, "biu").astype(np.bool_)
     truncated = np.zeros(count, np.bool_)
     if "truncated" in arrays:
@@ -82,9 +83,20 @@ def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
         for name, values in (("observations", before), ("next_observations", after)):
             if len(values) != count:
                 raise LogError(f"{where}: {name}: {len(values)} for {count} actions")
+        if _kind(before) != _kind(after):
+            raise LogError(
+                f"{where}: next_observations: {after.dtype}{list(after.shape)}, expected what "
+                f"observations are: {before.dtype}{list(before.shape)}"
+            )
     else:
         before, after = _split_episodes(observations, ends, where)
     return checked(Log(before, after, actions, rewards, ends, exploited, where))
+
+
+def _kind(observations: npt.NDArray[Any]) -> tuple[Any, ...]:
+    """What the observations of a log have in common: their shape, and whether they are numbers."""
+    kind = observations.dtype.kind
+    return observations.shape[1:], "number" if kind in "fiu" else observations.dtype
 
 
 def _split_episodes(
