@@ -327,10 +327,10 @@ static void test_each_write_of_numbers_failing(void **unused) {
     (void)fail_each_write(make_of_numbers(DIAGONAL, 0, 3));
 }
 
-static int no_name(void *ctx, const void *feature, char *text, uint32_t room) {
+static int no_name(void *ctx, const void *feature, char *name, uint32_t room) {
     (void)ctx;
     (void)feature;
-    (void)text;
+    (void)name;
     (void)room;
     return 1;
 }
