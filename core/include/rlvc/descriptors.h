@@ -60,10 +60,10 @@ typedef struct rlvc_descriptors {
 RLVC_API rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uint32_t points,
                                               uint32_t dimensions, uint32_t form, float radius);
 
-/* Makes *domain the domain of such percepts, with *descriptors as its ctx. A percept is
- * refused (RLVC_E_PERCEPT) whose count is above P, or that holds a number which is not finite or
- * beyond 1e15. Its other callbacks fail for a
- * percept whose count is above P, and for nothing else.
+/* Makes *domain the domain of such percepts, with *descriptors as its ctx. rlvc_begin and
+ * rlvc_observe refuse a percept whose count is above P, or that holds a number which is not finite
+ * or is beyond 1e15 (RLVC_E_PERCEPT). The other callbacks fail for a count above P, and for nothing
+ * else.
  *
  * Detecting costs O(P D) for each percept and feature, at most. The vectors that candidates come
  * from are drawn from all targets alike, so that a rare one is not missed; without repetition among
