@@ -12,6 +12,7 @@
 #include "rlvc/export.h"
 #include "rlvc/log.h"
 #include "rlvc/min_tree.h"
+#include "rlvc/planner.h"
 #include "rlvc/policy.h"
 #include "rlvc/rlvc.h"
 #include "rlvc/snapshot.h"
@@ -177,6 +178,38 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_policy_info, exact)},
     {FIELD(rlvc_policy_info, as_agent)},
     {FIELD(rlvc_policy_info, reserved)},
+    {SIZE(rlvc_planner_config)},
+    {FIELD(rlvc_planner_config, components)},
+    {FIELD(rlvc_planner_config, actions)},
+    {FIELD(rlvc_planner_config, capacity)},
+    {FIELD(rlvc_planner_config, sample)},
+    {FIELD(rlvc_planner_config, model_leaves)},
+    {FIELD(rlvc_planner_config, leaves)},
+    {FIELD(rlvc_planner_config, horizon)},
+    {FIELD(rlvc_planner_config, random)},
+    {FIELD(rlvc_planner_config, candidates)},
+    {FIELD(rlvc_planner_config, patience)},
+    {FIELD(rlvc_planner_config, seed)},
+    {SIZE(rlvc_planner_test)},
+    {FIELD(rlvc_planner_test, cutpoint)},
+    {FIELD(rlvc_planner_test, component)},
+    {FIELD(rlvc_planner_test, child)},
+    {FIELD(rlvc_planner_test, action)},
+    {SIZE(rlvc_planner_statistics)},
+    {FIELD(rlvc_planner_statistics, interactions)},
+    {FIELD(rlvc_planner_statistics, episodes)},
+    {FIELD(rlvc_planner_statistics, explored)},
+    {FIELD(rlvc_planner_statistics, fits)},
+    {FIELD(rlvc_planner_statistics, searches)},
+    {FIELD(rlvc_planner_statistics, candidates)},
+    {FIELD(rlvc_planner_statistics, leaves)},
+    {FIELD(rlvc_planner_statistics, tried)},
+    {FIELD(rlvc_planner_statistics, score)},
+    {FIELD(rlvc_planner_statistics, beta)},
+    {FIELD(rlvc_planner_statistics, deviation)},
+    {FIELD(rlvc_planner_statistics, acting)},
+    {FIELD(rlvc_planner_statistics, verdict)},
+    {FIELD(rlvc_planner_statistics, reserved)},
     {SIZE(rlvc_store)},
     {FIELD(rlvc_store, ctx)},
     {FIELD(rlvc_store, slot_bytes)},

@@ -11,6 +11,7 @@
 #include "rlvc/export.h"
 #include "rlvc/min_tree.h"
 #include "rlvc/log.h"
+#include "rlvc/planner.h"
 #include "rlvc/policy.h"
 #include "rlvc/snapshot.h"
 #include "rlvc/status.h"

@@ -9,7 +9,7 @@
  * each row, allowed     the ring's distinct percepts, by these features scratch          first an
  * index of the rows, to find duplicates; then the block of rlvc_min_tree, with its tree; or else
  * the leaf that each node of the agent's tree begins in the collapsed one */
-#include "rlvc/policy.h"
+#include "policy.h"
 
 #include "rlvc/min_tree.h"
 
@@ -20,14 +20,6 @@
 #include <string.h>
 
 #define PERCEPTS_DEFAULT 16384u
-
-struct rlvc_policy {
-    rlvc_domain domain;
-    rlvc_tree tree;
-    uint8_t *action; /* [classes] */
-    uint32_t actions;
-    uint8_t busy; /* a callback is being called */
-};
 
 typedef struct maker {
     const rlvc_agent *agent;

@@ -74,6 +74,22 @@ MIN_TREE_ROWS_MAX = 16777216
 MIN_TREE_FEATURES_MAX = 65535
 MIN_TREE_ENTRIES_MAX = 268435456
 MIN_TREE_EFFORT_MAX = 549755813888
+PLANNER_COMPONENTS_MAX = 64
+PLANNER_ACTIONS_MAX = 64
+PLANNER_CAPACITY_MAX = 100000000
+PLANNER_MODEL_LEAVES_MAX = 256
+PLANNER_LEAVES_MAX = 16
+PLANNER_CANDIDATES_MAX = 1000000
+PLANNER_NUMBER_MAX = 1000000000.0
+PLANNER_LEAF = 65535
+PLANNER_POLICY_BYTES = 2048
+PLANNER_RANDOM = 0
+PLANNER_EXPLORE = 1
+PLANNER_NEW = 2
+PLANNER_AGAIN = 3
+PLANNER_LEARNT = 0
+PLANNER_NO_EPISODE = 1
+PLANNER_NO_DIFFERENCE = 2
 SNAPSHOT_VERSION = 1
 STORE_UNIT = 64
 SLOT_BYTES_MAX = 2147483584
@@ -342,6 +358,38 @@ class PolicyInfo(c.Structure):
     ]
 
 
+class PlannerConfig(c.Structure):
+    """``rlvc_planner_config``."""
+
+    _fields_ = [
+        ("components", c.c_uint32), ("actions", c.c_uint32), ("capacity", c.c_uint32),
+        ("sample", c.c_uint32), ("model_leaves", c.c_uint32), ("leaves", c.c_uint32),
+        ("horizon", c.c_uint32), ("random", c.c_uint32), ("candidates", c.c_uint32),
+        ("patience", c.c_uint32), ("seed", c.c_uint32),
+    ]
+
+
+class PlannerTest(c.Structure):
+    """``rlvc_planner_test``."""
+
+    _fields_ = [
+        ("cutpoint", c.c_float), ("component", c.c_uint16), ("child", c.c_uint8),
+        ("action", c.c_uint8),
+    ]
+
+
+class PlannerStatistics(c.Structure):
+    """``rlvc_planner_statistics``."""
+
+    _fields_ = [
+        ("interactions", c.c_uint32), ("episodes", c.c_uint32), ("explored", c.c_uint32),
+        ("fits", c.c_uint32), ("searches", c.c_uint32), ("candidates", c.c_uint32),
+        ("leaves", c.c_uint32), ("tried", c.c_uint32), ("score", c.c_float),
+        ("beta", c.c_float), ("deviation", c.c_float), ("acting", c.c_uint8),
+        ("verdict", c.c_uint8), ("reserved", c.c_uint8 * 2),
+    ]
+
+
 STORE_READ = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
 
 
@@ -524,6 +572,9 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_min_tree_result": MinTreeResult,
     "rlvc_policy_config": PolicyConfig,
     "rlvc_policy_info": PolicyInfo,
+    "rlvc_planner_config": PlannerConfig,
+    "rlvc_planner_test": PlannerTest,
+    "rlvc_planner_statistics": PlannerStatistics,
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_thresholds": Thresholds,
@@ -597,6 +648,19 @@ CORE: Functions = {
     "rlvc_policy_act": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_policy_print": (c.c_int, [c.c_void_p, c.c_uint32, WRITE, c.c_void_p]),
     "rlvc_policy_export_c": (c.c_int, [c.c_void_p, c.c_void_p, WRITE, c.c_void_p, c.c_void_p]),
+    "rlvc_planner_default": (c.c_int, [c.c_void_p, c.c_uint32, c.c_uint32]),
+    "rlvc_planner_size": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_init": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
+    "rlvc_planner_begin": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_act": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_observe": (c.c_int, [c.c_void_p, c.c_uint32, c.c_float, c.c_void_p, c.c_uint8]),
+    "rlvc_planner_learn": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
+    "rlvc_planner_budget_min": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_predict": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
+    "rlvc_planner_config_of": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_node": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
+    "rlvc_planner_policy": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
+    "rlvc_planner_stats": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_snapshot_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_save": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_load": (c.c_int, [

@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: MIT */
+/* The planner: see rlvc/planner.h. Acting and observing are here; what is learnt is in planning.c.
+ */
+#include "planner_state.h"
+
+#include "cells.h"
+#include <string.h>
+
+/* ------------------------------------------------------------------ config and memory */
+
+rlvc_status rlvc_planner_default(rlvc_planner_config *config, uint32_t components,
+                                 uint32_t actions) {
+    static const rlvc_planner_config defaults = {
+        .capacity = 2000,
+        .sample = 2000,
+        .model_leaves = 32,
+        .leaves = RLVC_PLANNER_LEAVES_MAX,
+        .horizon = 500,
+        .random = 200,
+        .candidates = 1000,
+        .patience = 300,
+        .seed = 1,
+    };
+    if (!config)
+        return RLVC_E_NULL;
+    *config = defaults;
+    config->components = components;
+    config->actions = actions;
+    return RLVC_OK;
+}
+
+static int within(uint32_t x, uint32_t low, uint32_t high) {
+    return x >= low && x <= high;
+}
+
+static rlvc_status check(const rlvc_planner_config *config) {
+    int fine = within(config->components, 1, RLVC_PLANNER_COMPONENTS_MAX) &&
+               within(config->actions, 2, RLVC_PLANNER_ACTIONS_MAX) &&
+               within(config->capacity, 64, RLVC_PLANNER_CAPACITY_MAX) &&
+               within(config->sample, 32, config->capacity) &&
+               within(config->model_leaves, 1, RLVC_PLANNER_MODEL_LEAVES_MAX) &&
+               within(config->leaves, 2, RLVC_PLANNER_LEAVES_MAX) &&
+               within(config->horizon, 1, RLVC_PLANNER_CAPACITY_MAX) &&
+               within(config->random, 32, config->capacity / 2u) &&
+               within(config->candidates, 1, RLVC_PLANNER_CANDIDATES_MAX) &&
+               within(config->patience, 1, RLVC_PLANNER_CANDIDATES_MAX);
+    return fine ? RLVC_OK : RLVC_E_CONFIG;
+}
+
+static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_planner_config *config) {
+    uint32_t d = config->components;
+    (void)rlvc_arena_carve(arena, 1, sizeof *planner);
+    rlvc_experience_carve(&planner->experience, arena, d, config->capacity);
+    planner->sample.room = config->sample;
+    planner->sample.row = rlvc_arena_carve(arena, config->sample, sizeof *planner->sample.row);
+    rlvc_dynamics_carve(&planner->dynamics, &planner->planning.fit, arena, d, config->actions,
+                        config->model_leaves);
+    rlvc_archive_carve(&planner->archive, arena, d);
+    planner->start = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
+    planner->common = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
+    planner->search_start = rlvc_arena_carve(arena, RLVC_SEARCH_STARTS * d, sizeof(float));
+    planner->now = rlvc_arena_carve(arena, d, sizeof(float));
+    planner->planning.rollout.s = rlvc_arena_carve(arena, d, sizeof(float));
+    planner->planning.search.rollout.s = rlvc_arena_carve(arena, d, sizeof(float));
+    planner->cells_bytes = rlvc_cells_pairs(d) * RLVC_CELLS_BYTES;
+    planner->cells = rlvc_arena_carve(arena, planner->cells_bytes, 1);
+    planner->fresh = rlvc_arena_carve(arena, planner->cells_bytes, 1);
+}
+
+rlvc_status rlvc_planner_size(const rlvc_planner_config *config, size_t *bytes) {
+    rlvc_planner planner;
+    rlvc_arena arena = {NULL, 0};
+    if (!config || !bytes)
+        return RLVC_E_NULL;
+    *bytes = 0;
+    if (check(config) != RLVC_OK)
+        return RLVC_E_CONFIG;
+    carve(&planner, &arena, config);
+    *bytes = (size_t)arena.used;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_init(const rlvc_planner_config *config, void *memory, size_t bytes,
+                              rlvc_planner **planner) {
+    size_t needed;
+    if (!planner)
+        return RLVC_E_NULL;
+    *planner = NULL;
+    rlvc_status status = rlvc_planner_size(config, &needed);
+    if (status != RLVC_OK)
+        return status;
+    if (!memory)
+        return RLVC_E_NULL;
+    if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
+        return RLVC_E_MEMORY;
+    const rlvc_planner_config copied = *config; /* it may lie in the block */
+    rlvc_arena arena = {(unsigned char *)memory, 0};
+    rlvc_planner *made = memory;
+    RLVC_UNPOISON(memory, needed);
+    memset(memory, 0, needed);
+    made->config = copied;
+    carve(made, &arena, &copied);
+    made->gainful = 1;
+    rlvc_rng_seed(&made->rng, copied.seed);
+    *planner = made;
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ acting and observing */
+
+static int is_number(float x, float most) {
+    return x >= -most && x <= most; /* false for a NaN */
+}
+
+static int is_percept(const rlvc_planner *planner, const float *percept) {
+    for (uint32_t i = 0; i < planner->config.components; i++)
+        if (!is_number(percept[i], RLVC_PLANNER_NUMBER_MAX))
+            return 0;
+    return 1;
+}
+
+/* Which policy acts in the episode: the one that was chosen last, or the best while that is being
+ * chosen. */
+static void choose_acting(rlvc_planner *planner) {
+    rlvc_acting *acting = &planner->acting;
+    if (!planner->learning) {
+        *acting = planner->next;
+    } else if (planner->archive.count > 0) {
+        acting->trial = rlvc_archive_best(&planner->archive, 0.5f);
+        acting->tree = planner->archive.trial[acting->trial].tree;
+        acting->serial = planner->archive.trial[acting->trial].serial;
+        acting->why = RLVC_PLANNER_AGAIN;
+    }
+}
+
+/* Begins to count an episode. */
+static void open_episode(rlvc_planner *planner, const float *percept) {
+    memcpy(planner->now, percept, planner->config.components * sizeof(float));
+    planner->steps = 0;
+    planner->earned = 0.0f;
+    planner->new_cells = 0;
+    choose_acting(planner);
+}
+
+rlvc_status rlvc_planner_begin(rlvc_planner *planner, const float *percept) {
+    if (!planner || !percept)
+        return RLVC_E_NULL;
+    if (!is_percept(planner, percept))
+        return RLVC_E_RANGE;
+    if (!rlvc_experience_has_room(&planner->experience))
+        return RLVC_E_BUSY;
+    uint32_t d = planner->config.components;
+    rlvc_experience_begin(&planner->experience, percept);
+    memcpy(planner->start + (size_t)(planner->starts % RLVC_PLANNER_STARTS) * d, percept,
+           d * sizeof(float));
+    planner->starts++;
+    open_episode(planner, percept);
+    planner->open = 1;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_act(rlvc_planner *planner, uint32_t *action) {
+    if (!planner || !action)
+        return RLVC_E_NULL;
+    if (!planner->open)
+        return RLVC_E_ORDER;
+    const float *s = rlvc_experience_percept(&planner->experience, planner->experience.head);
+    if (planner->acting.why == RLVC_PLANNER_RANDOM)
+        *action = rlvc_rng_below(&planner->rng, planner->config.actions);
+    else
+        *action = rlvc_small_tree_act(&planner->acting.tree, s);
+    return RLVC_OK;
+}
+
+/* An episode by a policy of the archive, which may have left it since. */
+static void note_return(rlvc_planner *planner) {
+    const rlvc_acting *acting = &planner->acting;
+    rlvc_archive *archive = &planner->archive;
+    if (acting->why < RLVC_PLANNER_NEW || archive->trial[acting->trial].serial != acting->serial)
+        return;
+    rlvc_archive_note(archive, acting->trial, planner->now, planner->earned);
+    planner->planning.rolling = 0; /* what was being rolled out may be another episode now */
+}
+
+/* Is exploring still worth it? Of the cells that the episode might have been the first in, it was
+ * in one in fifty. */
+static void note_exploration(rlvc_planner *planner) {
+    uint32_t cells = RLVC_CELLS_SIDE * RLVC_CELLS_SIDE;
+    uint32_t most = planner->steps < cells ? planner->steps : cells;
+    most *= rlvc_cells_pairs(planner->config.components);
+    planner->gainful = planner->new_cells * 50u >= most;
+}
+
+static void close_episode(rlvc_planner *planner, uint8_t end) {
+    if (planner->episodes == 0 || planner->earned < planner->least)
+        planner->least = planner->earned;
+    if (planner->episodes == 0 || planner->earned > planner->most)
+        planner->most = planner->earned;
+    planner->episodes++;
+    if (end != RLVC_TERMINATED && planner->steps > planner->longest)
+        planner->longest = planner->steps;
+    if (planner->acting.why == RLVC_PLANNER_EXPLORE)
+        note_exploration(planner);
+    note_return(planner);
+    planner->due = 1;
+}
+
+/* May this be stored? */
+static rlvc_status check_interaction(const rlvc_planner *planner, uint32_t action, float reward,
+                                     const float *next, uint8_t end) {
+    if (!planner->open)
+        return RLVC_E_ORDER;
+    if (action >= planner->config.actions || end > RLVC_TRUNCATED || !is_percept(planner, next))
+        return RLVC_E_RANGE;
+    if (!is_number(reward, RLVC_REWARD_MAX))
+        return RLVC_E_REWARD;
+    return rlvc_experience_has_room(&planner->experience) ? RLVC_OK : RLVC_E_BUSY;
+}
+
+rlvc_status rlvc_planner_observe(rlvc_planner *planner, uint32_t action, float reward,
+                                 const float *next, uint8_t end) {
+    if (!planner || !next)
+        return RLVC_E_NULL;
+    rlvc_status status = check_interaction(planner, action, reward, next, end);
+    if (status != RLVC_OK)
+        return status;
+    rlvc_experience_append(&planner->experience, (uint8_t)action, reward, next, end);
+    planner->earned += reward;
+    planner->steps++;
+    if (planner->acting.why == RLVC_PLANNER_EXPLORE) {
+        planner->explored++;
+        planner->new_cells += rlvc_cells_mark(&planner->dynamics, next, planner->cells);
+    }
+    planner->open = end == RLVC_GOES_ON;
+    if (!planner->open || planner->steps == planner->config.horizon)
+        close_episode(planner, end);
+    if (planner->open && planner->steps == planner->config.horizon)
+        open_episode(planner, next);
+    return RLVC_OK;
+}
+
+/* ------------------------------------------------------------------ learning and asking */
+
+rlvc_status rlvc_planner_learn(rlvc_planner *planner, uint32_t budget, rlvc_progress *progress) {
+    if (!planner || !progress)
+        return RLVC_E_NULL;
+    uint32_t grain = rlvc_planning_grain(planner);
+    if (budget < grain)
+        return RLVC_E_RANGE;
+    memset(progress, 0, sizeof *progress);
+    if (!planner->learning && planner->due)
+        rlvc_planning_begin(planner);
+    progress->work = rlvc_planning_step(planner, budget - grain + 1u);
+    progress->done = !planner->learning;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_budget_min(const rlvc_planner *planner, uint32_t *budget) {
+    if (!planner || !budget)
+        return RLVC_E_NULL;
+    *budget = rlvc_planning_grain(planner);
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_predict(const rlvc_planner *planner, const float *percept,
+                                 uint32_t *action) {
+    if (!planner || !percept || !action)
+        return RLVC_E_NULL;
+    if (!is_percept(planner, percept))
+        return RLVC_E_RANGE;
+    const rlvc_trial *best = rlvc_planner_best(planner);
+    *action = best ? rlvc_small_tree_act(&best->tree, percept) : 0;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_stats(const rlvc_planner *planner, rlvc_planner_statistics *statistics) {
+    if (!planner || !statistics)
+        return RLVC_E_NULL;
+    const rlvc_trial *best = rlvc_planner_best(planner);
+    memset(statistics, 0, sizeof *statistics);
+    statistics->interactions = planner->experience.total;
+    statistics->episodes = planner->episodes;
+    statistics->explored = planner->explored;
+    statistics->fits = planner->fits;
+    statistics->searches = planner->searches;
+    statistics->candidates = planner->candidates;
+    statistics->beta = planner->archive.beta;
+    statistics->deviation = planner->archive.deviation;
+    statistics->acting = planner->acting.why;
+    statistics->leaves = 1;
+    if (best) {
+        statistics->leaves = best->tree.leaves;
+        statistics->tried = best->episodes;
+        statistics->score = best->score;
+    }
+    statistics->verdict = RLVC_PLANNER_LEARNT;
+    if (planner->episodes == 0)
+        statistics->verdict = RLVC_PLANNER_NO_EPISODE;
+    else if (planner->least == planner->most)
+        statistics->verdict = RLVC_PLANNER_NO_DIFFERENCE;
+    else if (!best || planner->archive.beta < 0.1f)
+        statistics->verdict = RLVC_PLANNER_NO_MODEL;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_config_of(const rlvc_planner *planner, rlvc_planner_config *config) {
+    if (!planner || !config)
+        return RLVC_E_NULL;
+    *config = planner->config;
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_node(const rlvc_planner *planner, uint32_t index,
+                              rlvc_planner_test *node) {
+    if (!planner || !node)
+        return RLVC_E_NULL;
+    const rlvc_trial *best = rlvc_planner_best(planner);
+    if (index >= (best ? best->tree.nodes : 1u))
+        return RLVC_E_RANGE;
+    memset(node, 0, sizeof *node);
+    node->component = RLVC_PLANNER_LEAF;
+    if (!best)
+        return RLVC_OK;
+    const rlvc_small_node *from = best->tree.node + index;
+    node->cutpoint = from->cut;
+    node->component = from->component;
+    node->child = from->child;
+    node->action = from->action;
+    return RLVC_OK;
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* What a policy earns in the model from one start: episodes in the learnt dynamics.
+ *
+ * The probability that the episode ends is a weight and no draw: what follows counts by the
+ * probability that it is reached. The random numbers of a step depend on the seed, the start and
+ * the step alone, so that two policies meet the same luck (common random numbers), and however the
+ * work is sliced. */
+#ifndef RLVC_SRC_ROLLOUT_H
+#define RLVC_SRC_ROLLOUT_H
+
+#include "../dynamics/dynamics.h"
+#include "small_tree.h"
+
+typedef struct rlvc_rollout_input {
+    const rlvc_dynamics *dynamics;
+    uint32_t horizon;
+    uint32_t seed;
+    uint8_t *fresh; /* optional: cells marked as visited; then new ones are counted */
+    uint8_t plain;  /* 1: the policy's action always; 0: one in fifty is random */
+} rlvc_rollout_input;
+
+typedef struct rlvc_rollout {
+    uint32_t stream; /* the seeds of its steps begin here */
+    float *s;        /* [components] */
+    float alive;     /* the probability that the episode goes on */
+    float total;     /* expected return so far */
+    float novelty;   /* new cells so far, each by the probability that it is reached */
+    uint32_t step;
+    uint8_t done;
+} rlvc_rollout;
+
+/* Begins at a percept, which is copied to the rollout's own s. O(components). */
+void rlvc_rollout_begin(rlvc_rollout *rollout, const rlvc_rollout_input *in, const float *percept,
+                        uint32_t start);
+
+/* One step of the model. @param visits optional, of the policy's nodes. */
+void rlvc_rollout_step(rlvc_rollout *rollout, const rlvc_rollout_input *in,
+                       const rlvc_small_tree *policy, uint32_t *visits);
+
+/* The multiplications of a step, about. */
+static inline uint32_t rlvc_rollout_units(const rlvc_dynamics *dynamics) {
+    return (dynamics->basis.components + 1u) * (dynamics->terms_max + 8u);
+}
+
+#endif

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* The search for a small tree that earns much in the model: one move at a time (moves.h), from a
+ * tree that is given.
+ *
+ * A candidate is rolled out from each start. It is given up once it lags the tree in hand by more
+ * than a twentieth over four starts or more. It takes its place if it earns as much less a price
+ * for each leaf; equals are accepted, since many moves change nothing yet. The search ends after so
+ * many candidates, or 2,500 steps of the model for each of that number, or once so many in a row
+ * have gained nothing: a quarter of that where the tree in hand earns the greatest reward at each
+ * step, so that only leaves can be saved. */
+#ifndef RLVC_SRC_SEARCH_H
+#define RLVC_SRC_SEARCH_H
+
+#include "moves.h"
+#include "rollout.h"
+
+#define RLVC_SEARCH_STARTS 32u
+
+typedef struct rlvc_search_input {
+    rlvc_rollout_input rollout;
+    rlvc_moves_input moves;
+    const float *start;   /* [starts][components] */
+    const uint8_t *known; /* the cells visited so far, [cells_bytes], where novelty is sought */
+    uint32_t cells_bytes;
+    uint32_t starts; /* [1, RLVC_SEARCH_STARTS] */
+    uint32_t candidates;
+    uint32_t patience; /* candidates without gain */
+    uint32_t seed;
+} rlvc_search_input;
+
+typedef struct rlvc_search_cursor {
+    rlvc_search_input in;
+    rlvc_small_tree tree; /* in hand */
+    rlvc_small_tree candidate;
+    rlvc_rollout rollout;
+    float reference[RLVC_SEARCH_STARTS]; /* what the tree in hand earns from each start */
+    float earned[RLVC_SEARCH_STARTS];    /* what the candidate does */
+    uint32_t visits[RLVC_SMALL_NODES_MAX];
+    uint32_t candidate_visits[RLVC_SMALL_NODES_MAX];
+    float best;  /* mean of the reference */
+    float price; /* of a leaf */
+    float sum;   /* of earned so far */
+    float reference_sum;
+    uint32_t start;
+    uint32_t steps;  /* of the model so far */
+    uint32_t tried;  /* candidates so far */
+    uint32_t gained; /* the last of these that gained */
+    uint8_t rolling; /* a rollout is under way */
+    uint8_t first;   /* the tree in hand itself is being rolled out */
+    uint8_t done;
+} rlvc_search_cursor;
+
+/* Begins at a tree. search->rollout.s is the caller's memory. O(nodes). */
+void rlvc_search_begin(rlvc_search_cursor *search, const rlvc_search_input *in,
+                       const rlvc_small_tree *tree);
+
+/* Works on for at least `budget` multiplications, and one step of the model more at most. */
+uint32_t rlvc_search_step(rlvc_search_cursor *search, uint32_t budget);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* What a policy's block begins with. Its tree has the layout of the agent's (tree.h). */
+#ifndef RLVC_SRC_POLICY_H
+#define RLVC_SRC_POLICY_H
+
+#include "rlvc/policy.h"
+#include "../tree/tree.h"
+
+struct rlvc_policy {
+    rlvc_domain domain;
+    rlvc_tree tree;
+    uint8_t *action; /* [classes] */
+    uint32_t actions;
+    uint8_t busy; /* a callback is being called */
+};
+
+#endif
