@@ -167,6 +167,17 @@ RLVC_API rlvc_status rlvc_planner_node(const rlvc_planner *planner, uint32_t ind
 RLVC_API rlvc_status rlvc_planner_policy(const rlvc_planner *planner, const rlvc_domain *thresholds,
                                          void *memory, size_t bytes, rlvc_policy **policy);
 
+/* Makes a policy of nodes that rlvc_planner_node gave: kept in a file, or as constants of a
+ * controller that does not learn. As rlvc_planner_policy does. O(leaves^2).
+ * @param node [count] a tree as rlvc_planner_node gives it: a child comes after its parent
+ * @param count [1, 2 * RLVC_PLANNER_LEAVES_MAX - 1], odd
+ * @param actions [1, RLVC_PLANNER_ACTIONS_MAX]
+ * @return RLVC_OK; RLVC_E_MISMATCH: another domain; RLVC_E_RANGE: count, actions or a node;
+ * RLVC_E_MEMORY. On error *policy is null. */
+RLVC_API rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint32_t count,
+                                            uint32_t actions, const rlvc_domain *thresholds,
+                                            void *memory, size_t bytes, rlvc_policy **policy);
+
 /* statistics.acting: what acts in this episode. */
 #define RLVC_PLANNER_RANDOM 0u  /* random actions */
 #define RLVC_PLANNER_EXPLORE 1u /* a tree that promises to visit what is new */

@@ -660,6 +660,9 @@ CORE: Functions = {
     "rlvc_planner_config_of": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_node": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
     "rlvc_planner_policy": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
+    "rlvc_planner_policy_of": (c.c_int, [
+        c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p,
+    ]),
     "rlvc_planner_stats": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_snapshot_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_save": (c.c_int, [c.c_void_p, c.c_void_p]),
