@@ -35,6 +35,13 @@ RLVC_API rlvc_status rlvc_shim_policy_act(rlvc_policy *policy, const unsigned ch
                                           uint32_t bytes, size_t count, uint32_t *actions,
                                           size_t *done);
 
+/* rlvc_planner_predict for each of `count` percepts.
+ * @param percepts aligned for floats
+ * @param actions  [count] */
+RLVC_API rlvc_status rlvc_shim_planner_predict(const rlvc_planner *planner,
+                                               const unsigned char *percepts, uint32_t bytes,
+                                               size_t count, uint32_t *actions, size_t *done);
+
 /* Interactions, as arrays of `count` elements. */
 typedef struct rlvc_shim_log {
     const unsigned char *percepts, *next; /* `bytes` each */

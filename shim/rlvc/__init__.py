@@ -14,7 +14,7 @@ reinforcement learning".
 #     files      reading files, and replacing them as a whole
 #     _native    the C library: loaded, checked, declared
 #     domains    percepts and features (section 5)
-#     agent      the agent, its configuration, snapshots, policies
+#     agent      the agent and the planner, their configurations, snapshots, policies
 #     learning   the loop around a Gymnasium environment (section 4.2.1)
 #     logs       learning from recorded interactions
 #     vision     pictures to percepts (sections 3 and 6.2)
@@ -28,14 +28,25 @@ from .agent.agent import Agent
 from .agent.batch import Batch
 from .agent.config import Config
 from .agent.min_tree import MinTree, min_tree
+from .agent.planned_policy import PlannedPolicy
+from .agent.planner import Planner
+from .agent.planner_config import PlannerConfig
 from .agent.policy import Compaction, Policy
-from .agent.results import CHOICE, Choice, Prediction, Progress, Split, Statistics
+from .agent.results import (
+    CHOICE,
+    Choice,
+    PlannerStatistics,
+    Prediction,
+    Progress,
+    Split,
+    Statistics,
+)
 from .domains.bits import Bits
 from .domains.descriptors import Descriptors
 from .domains.domain import Domain
 from .domains.thresholds import Thresholds
 from .errors import Error
-from .learning import encode, trials
+from .learning import encode
 from .learning.encode import Encoder
 from .learning.learn import learn
 from .learning.run import Record, Run
@@ -54,6 +65,10 @@ __all__ = [
     "Encoder",
     "Error",
     "MinTree",
+    "PlannedPolicy",
+    "Planner",
+    "PlannerConfig",
+    "PlannerStatistics",
     "Policy",
     "Prediction",
     "Progress",
@@ -67,5 +82,4 @@ __all__ = [
     "learn",
     "learn_from",
     "min_tree",
-    "trials",
 ]

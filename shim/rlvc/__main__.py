@@ -9,16 +9,18 @@ import json
 import os
 import sys
 from collections.abc import Callable
-from typing import Any, NoReturn
+from typing import Any, NoReturn, get_args
 
 from . import __version__, files
 from .agent.agent import Agent
 from .agent.config import CHOICES
-from .agent.results import Statistics
+from .agent.planned_policy import PlannedPolicy, is_policy
+from .agent.planned_policy import read_file as read_policy
+from .agent.planner import Planner
 from .agent.snapshot import read_file
 from .errors import EnvError, Error, RunError
 from .learning.encode import explain
-from .learning.learn import learn
+from .learning.learn import Method, learn
 from .learning.run import Run
 from .logs import learn_from
 
@@ -77,9 +79,17 @@ def _add_learn(commands: Any) -> None:
         help="number of episodes to play after learning (default: %(default)s)")  # fmt: skip
     add("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
     add("--c", metavar="FILE", help="write the policy as a C header; -: print it")
-    add("--save", metavar="FILE", help="write the agent for 'show' and 'export'")
+    add(
+        "--save",
+        metavar="FILE",
+        help="write the agent, or a planner's policy, for 'show' and 'export'",
+    )
     add("--quiet", action="store_true", help="show no progress bar")
-    config = learn.add_argument_group("config of the agent", "rlvc.Config documents these.")
+    add("--method", choices=get_args(Method),
+        help="how to learn (default: planner on real numbers from ENV, else classes)")  # fmt: skip
+    config = learn.add_argument_group(
+        "config of the agent", "rlvc.Config documents these; of the method 'classes'."
+    )
     for name in _NUMBERS:
         config.add_argument(f"--{name}", type=float, metavar="X", help=_NUMBERS[name])
     for name, values in CHOICES.items():
@@ -104,16 +114,18 @@ def _parser() -> argparse.ArgumentParser:
     plot.add_argument("file", metavar="FILE", help="a .png or a .svg")
 
     show = commands.add_parser(
-        "show", help="print an agent", description="Prints the tree of a saved agent."
+        "show",
+        help="print what was saved",
+        description="Prints the tree of a saved agent or policy.",
     )
-    show.add_argument("agent", metavar="AGENT")
+    show.add_argument("agent", metavar="FILE")
 
     export = commands.add_parser(
         "export",
-        help="write the policy of an agent as C",
-        description="Writes the policy of a saved agent as a C header.",
+        help="write what was saved as C",
+        description="Writes the policy of a saved agent, or a saved policy, as a C header.",
     )
-    export.add_argument("agent", metavar="AGENT")
+    export.add_argument("agent", metavar="FILE")
     export.add_argument("--c", metavar="FILE", required=True, help="the header")
 
     commands.add_parser(
@@ -162,6 +174,7 @@ def _learn(arguments: argparse.Namespace) -> int:
                 env,
                 arguments.interactions,
                 seed=arguments.seed,
+                method=arguments.method,
                 progress=not arguments.quiet,
                 **_config(arguments),
             )
@@ -188,34 +201,37 @@ def _learn(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _summary(statistics: Statistics) -> str:
-    """The number of classes and interactions of an agent."""
-    classes = "1 class" if statistics.classes == 1 else f"{statistics.classes} classes"
-    return f"{classes} after {statistics.interactions} interactions"
+def _summary(count: int, interactions: int, one: str = "class", many: str = "classes") -> str:
+    """The number of classes or leaves, and of interactions."""
+    return f"{count} {one if count == 1 else many} after {interactions} interactions"
 
 
 def _keep(run: Run, env: Any, arguments: argparse.Namespace) -> None:
     """Write the result: files first, as the reader of the text may close the output."""
     if arguments.save:
-        run.agent.save(arguments.save, run.encoder.names if run.encoder else ())
+        saved = run.policy() if isinstance(run.learner, Planner) else run.learner
+        assert isinstance(saved, Agent | PlannedPolicy)
+        saved.save(arguments.save, run.encoder.names if run.encoder else ())
     if arguments.json:
         from . import report
 
         _write(arguments.json, json.dumps(report.make(run, env), indent=1) + "\n")
     if arguments.c:
-        _write(arguments.c, (run.small or run.agent).export_c())
+        _write(arguments.c, run.learner.export_c())
     print(run.text(), end="")
-    statistics = run.agent.statistics
-    print(_summary(statistics))
+    words = ("class", "classes") if isinstance(run.learner, Agent) else ("leaf", "leaves")
+    print(_summary(run.leaves, run.interactions, *words))
 
 
-def _show_agent(file: str) -> None:
+def _show(file: str) -> None:
+    if is_policy(file):
+        policy, names = read_policy(file)
+        print(explain(policy.print("text"), names), end="")
+        return
     names = read_file(file)[2]
     agent = Agent.load(file)
-    text = agent.print("text")
-    print(explain(text, names) if names else text, end="")
-    statistics = agent.statistics
-    print(_summary(statistics))
+    print(explain(agent.print("text"), names), end="")
+    print(_summary(agent.classes, agent.statistics.interactions))
 
 
 def _plot(arguments: argparse.Namespace) -> None:
@@ -235,9 +251,10 @@ def _run(parsed: argparse.Namespace) -> int:
     if parsed.command == "plot":
         _plot(parsed)
     elif parsed.command == "show":
-        _show_agent(parsed.agent)
+        _show(parsed.agent)
     elif parsed.command == "export":
-        _write(parsed.c, Agent.load(parsed.agent).export_c())
+        kind: Any = PlannedPolicy if is_policy(parsed.agent) else Agent
+        _write(parsed.c, kind.load(parsed.agent).export_c())
     else:
         from . import bench
 

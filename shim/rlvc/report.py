@@ -4,7 +4,9 @@
 ``run_gridworld --json`` writes reports, too; ``tools/run_gridworld/REPORT.md`` describes their
 members. A report of :func:`make` has the kind ``"rlvc learn"`` and the members ``seed``,
 ``interactions``, ``classes``, ``depth``, ``last_split_step``, ``memory_bytes``, ``history`` (with
-``mean_return`` in place of ``optimal_cells``), ``names`` (of the bits or components) and ``tree``.
+``mean_return`` in place of ``optimal_cells``), ``names`` (of the bits or components), ``tree``, and
+``warning``: why nothing was learnt, empty if something was. Of a planner it has neither ``depth``
+nor ``last_split_step``, and its tree has no values.
 The Binary Gridworld adds ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. The Tiled
 Gridworld with an :class:`rlvc.vision.Eye` adds ``maze``, ``cells``, ``cell``, ``objects`` and
 ``tests``.
@@ -20,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import files
+from .agent.agent import Agent
 from .errors import RunError
 
 if TYPE_CHECKING:
@@ -109,6 +112,14 @@ def _seen(run: Run, env: Any) -> dict[str, Any]:
     }
 
 
+def _tree_members(learner: Any) -> dict[str, Any]:
+    """Members that the tree of an agent has, and that of a planner has not."""
+    if not isinstance(learner, Agent):
+        return {}
+    statistics = learner.statistics
+    return {"depth": statistics.depth, "last_split_step": statistics.last_split}
+
+
 def make(run: Run, env: Any = None) -> dict[str, Any]:
     """Make the report of a run.
 
@@ -123,7 +134,6 @@ def make(run: Run, env: Any = None) -> dict[str, Any]:
     dict
         Can be written as JSON.
     """
-    statistics = run.agent.statistics
     history = [
         {
             "step": record.step,
@@ -138,15 +148,15 @@ def make(run: Run, env: Any = None) -> dict[str, Any]:
         "version": VERSION,
         "kind": "rlvc learn",
         "seed": run.seed,
-        "interactions": statistics.interactions,
-        "classes": statistics.classes,
-        "depth": statistics.depth,
-        "last_split_step": statistics.last_split,
-        "memory_bytes": run.agent.memory_bytes,
+        "interactions": run.interactions,
+        "classes": run.leaves,
+        **_tree_members(run.learner),
+        "memory_bytes": run.learner.memory_bytes,
+        "warning": run.warning,
         **({} if env is None else {**_cells(run, env), **_seen(run, env)}),
         "names": run.encoder.names if run.encoder else [],
         "history": history,
-        "tree": run.agent.tree,
+        "tree": run.learner.tree,
     }
 
 

@@ -282,10 +282,12 @@ def test_runs_are_pickled(space):
 
     run = rlvc.learn(Ring(space, observation=observation), 400, seed=1)
     for other in (pickle.loads(pickle.dumps(run)), copy.deepcopy(run)):
-        assert other.text() == run.text()
+        assert other.text() == run.text() and other.interactions == 400
         assert repr(other.history) == repr(run.history)
         for place in range(4):
             assert other.act(observation(place)) == run.act(observation(place))
+    if isinstance(run.learner, rlvc.Planner):
+        return
     with pytest.raises(TypeError, match="compact"):
         pickle.dumps(run.agent.compact())
     with pytest.raises(TypeError, match="batch"):

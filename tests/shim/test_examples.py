@@ -35,6 +35,9 @@ def test_example(example, tmp_path):
         assert float(done.stdout.split()[2]) >= 95
     if "lake" in example.stem:
         assert float(done.stdout.split("mean return:")[1]) >= 0.7
+    if "cart_pole" in example.stem:
+        assert float(re.search(r"mean return: (.*)", done.stdout)[1]) >= 475
+        assert drawn == {"balance.rlvc"}
     if "log" in example.stem:
         answers = re.findall(r"(heat|wait)$", done.stdout, re.MULTILINE)
         assert answers[0] == "heat"

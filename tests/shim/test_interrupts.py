@@ -122,6 +122,29 @@ def test_calls_that_change_nothing(walk, ctrl_c, make, what):
     agent.close()
 
 
+def due():
+    """A planner before its first model."""
+    planner = rlvc.Planner(1, 2, random=32, candidates=20, patience=10)
+    numbers = np.random.default_rng(1).uniform(-1, 1, (41, 1)).astype(np.float32)
+    planner.begin(numbers[0])
+    for i, x in enumerate(numbers[1:]):
+        action = planner.act()
+        planner.observe(action, float((x[0] > 0) == action), x, truncated=i == 39)
+    return planner
+
+
+def test_a_planners_learning_step(ctrl_c):
+    whole = due()
+    count = ctrl_c(0, whole.learn)
+    for number in chosen(count, 60):
+        planner = due()
+        assert ctrl_c(number, planner.learn), number
+        while not planner.learn().done:
+            pass
+        assert planner.print("json") == whole.print("json"), number
+        assert planner.statistics == whole.statistics, number
+
+
 class Coin(gymnasium.Env):
     observation_space, action_space = spaces.Discrete(2), spaces.Discrete(2)
 

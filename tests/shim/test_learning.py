@@ -55,7 +55,7 @@ class Line(gymnasium.Env):
 def test_every_space(observation):
     env = Line(observation)
     check_env(env, skip_render_check=True)
-    run = rlvc.learn(env, 3000, seed=1, discount=0.9)
+    run = rlvc.learn(env, 3000, method="classes", seed=1, discount=0.9)
     assert run.agent.statistics.interactions == 3000
     assert run.evaluate(env, 50, seed=2) == 1.0
     run.agent.check()
@@ -63,7 +63,7 @@ def test_every_space(observation):
 
 def test_tests_are_told_in_words():
     assert "number bit 2?" in rlvc.learn(Line(), 2000, seed=1, discount=0.9).text()
-    assert "x[0] > " in rlvc.learn(Line("box"), 2000, seed=1, discount=0.9).text()
+    assert "x[0] > " in rlvc.learn(Line("box", limit=20), 2000, seed=1).text()
     assert "a bit 2?" in rlvc.learn(Line("dict"), 2000, seed=1, discount=0.9).text()
 
 
@@ -82,7 +82,8 @@ def test_truncated_is_not_terminated():
 
 
 def test_the_same_seed_makes_the_same_tree():
-    trees = [rlvc.learn(Line("box"), 2000, seed=seed).agent.print("json") for seed in (5, 5, 6)]
+    runs = [rlvc.learn(Line("box"), 2000, seed=seed, method="classes") for seed in (5, 5, 6)]
+    trees = [run.agent.print("json") for run in runs]
     assert trees[0] == trees[1] != trees[2]
 
 
@@ -137,7 +138,7 @@ def test_ctrl_c_leaves_a_usable_run():
 
 def test_a_progress_bar(capsys):
     rlvc.learn(Line(), 500, seed=1, progress=True)
-    assert "classes=" in capsys.readouterr().err
+    assert "leaves=" in capsys.readouterr().err
 
 
 def test_what_cannot_be_learnt():
@@ -198,7 +199,8 @@ def test_constant_observations():
     env = gymnasium.wrappers.TransformObservation(
         Line("box"), lambda o: o * 0, spaces.Box(0, 0, (2,), np.float32)
     )
-    assert rlvc.learn(env, 200, seed=1).agent.classes == 1
+    assert rlvc.learn(env, 200, seed=1, method="classes").agent.classes == 1
+    assert rlvc.learn(env, 400, seed=1).leaves == 1
 
 
 def test_the_maze_is_a_proper_environment():

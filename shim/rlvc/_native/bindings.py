@@ -682,6 +682,9 @@ CORE: Functions = {
     "rlvc_shim_policy_act": (c.c_int, [
         c.c_void_p, c.c_void_p, c.c_uint32, c.c_size_t, c.c_void_p, c.c_void_p,
     ]),
+    "rlvc_shim_planner_predict": (c.c_int, [
+        c.c_void_p, c.c_void_p, c.c_uint32, c.c_size_t, c.c_void_p, c.c_void_p,
+    ]),
     "rlvc_shim_act": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_shim_observe": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_shim_records_read": (c.c_int, [

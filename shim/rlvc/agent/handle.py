@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What agents and policies share: their memory, errors, printing, export and closing."""
+"""What agents, planners and policies share: their memory, errors, printing, export and closing."""
 
 from __future__ import annotations
 
@@ -59,9 +59,39 @@ _byref = ctypes.byref
 _Self = TypeVar("_Self", bound="Handle")
 
 
-class Handle:
-    """Base class of :class:`rlvc.Agent` and :class:`rlvc.Policy`."""
+def allocated(size: int, what: str, hint: str) -> npt.NDArray[np.uint64]:
+    """Allocate memory for the library, aligned to 8 bytes.
 
+    Parameters
+    ----------
+    size : int
+        In bytes.
+    what, hint : str
+        For the error: what needs the memory, and how to need less.
+
+    Returns
+    -------
+    ndarray of uint64
+
+    Raises
+    ------
+    BlockError
+        There is not enough memory.
+    """
+    try:
+        return np.empty(size // 8 + 1, np.uint64)
+    except (MemoryError, ValueError):
+        raise BlockError(f"not enough memory for {what} of {size} bytes: {hint}") from None
+
+
+class Handle:
+    """Base class of :class:`rlvc.Agent`, :class:`rlvc.Planner` and :class:`rlvc.Policy`."""
+
+    _noun = "agent"
+    _block: npt.NDArray[np.uint64] | None
+    # None during a long call and after close(): C then returns RLVC_E_NULL.
+    _handle: int | None
+    _address: int | None
     _print, _export = "rlvc_print", "rlvc_export_c"
 
     def _make(
@@ -92,12 +122,7 @@ class Handle:
         references = (_byref(self._native_config), _byref(self._native_domain))
         size = ctypes.c_size_t()
         self._check(_native.call.rlvc_agent_size(*references, _byref(size)))
-        try:
-            self._block: npt.NDArray[np.uint64] | None = np.empty(size.value // 8 + 1, np.uint64)
-        except (MemoryError, ValueError):
-            raise BlockError(
-                f"not enough memory for an agent of {size.value} bytes: reduce capacity or classes"
-            ) from None
+        self._block = allocated(size.value, "an agent", "reduce capacity or classes")
         agent = ctypes.c_void_p()
         place = (self._block.ctypes.data, size.value)
         if snapshot is None:
@@ -107,9 +132,7 @@ class Handle:
             reference = _byref(store.native)
             status = _native.long_call.rlvc_load(*references, *place, reference, _byref(agent))
         self._check(status)
-        # None during a long call and after close(): C then returns RLVC_E_NULL.
-        self._handle: int | None = agent.value
-        self._address = agent.value
+        self._handle = self._address = agent.value
         self._memory_bytes = size.value
 
     # -------------------------------------------------------------- errors
@@ -123,8 +146,10 @@ class Handle:
             self._guard.reraise()
         if status == _native.E_NULL:
             if getattr(self, "_address", 0) is None:
-                raise ClosedError("the agent is closed")
-            raise ReenteredError("the agent is in use: a callback or another thread called it")
+                raise ClosedError(f"the {self._noun} is closed")
+            raise ReenteredError(
+                f"the {self._noun} is in use: a callback or another thread called it"
+            )
         text = _native.status_text(status)
         if index is not None:
             text = f"interaction {index}: {text}"
@@ -231,7 +256,7 @@ class Handle:
         if self._address is None:
             return
         if self._handle is None or self._guard.inside:
-            raise ReenteredError("the agent is in use: it cannot be closed")
+            raise ReenteredError(f"the {self._noun} is in use: it cannot be closed")
         self._handle = self._address = None
         self._block = None
 
@@ -252,11 +277,6 @@ class Handle:
     def domain(self) -> Domain:
         """The domain: percepts and features."""
         return self._domain
-
-    @property
-    def config(self) -> Config:
-        """The config of the agent."""
-        return self._config
 
     @property
     def memory_bytes(self) -> int:

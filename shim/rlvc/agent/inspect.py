@@ -14,6 +14,7 @@ from .. import _native
 from ..domains.domain import Percept
 from ..errors import ArrayError
 from .batch import checked
+from .config import Config
 from .handle import Handle
 from .results import Prediction, Split, Statistics
 
@@ -95,6 +96,11 @@ class Queries(Handle):
         if status:
             self._fail(status, done.value)
         return Prediction(*out)
+
+    @property
+    def config(self) -> Config:
+        """The config of the agent."""
+        return self._config
 
     @property
     def statistics(self) -> Statistics:

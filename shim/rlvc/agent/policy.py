@@ -12,9 +12,9 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import real, whole
-from ..domains.domain import Percept
-from ..errors import BlockError
-from .handle import Handle
+from ..domains.callbacks import Guard
+from ..domains.domain import Domain, Percept
+from .handle import Handle, allocated
 
 if TYPE_CHECKING:
     from .agent import Agent
@@ -59,9 +59,9 @@ class Compaction:
 
 
 class Policy(Handle):
-    """The smallest policy that acts as well as an agent on all percepts in the replay buffer.
+    """A policy by itself: of an agent the smallest that acts as well on all percepts in its memory.
 
-    :meth:`rlvc.Agent.compact` makes one. It is independent of the agent.
+    :meth:`rlvc.Agent.compact` and :meth:`rlvc.Planner.policy` make one. It is independent of them.
 
     Attributes
     ----------
@@ -81,6 +81,7 @@ class Policy(Handle):
     (1, 0)
     """
 
+    _noun = "policy"
     _print, _export = "rlvc_policy_print", "rlvc_policy_export_c"
 
     def __init__(self, agent: Agent, **changes: Any) -> None:
@@ -90,26 +91,37 @@ class Policy(Handle):
             if value is not None:
                 _set(native, field, value)
         agent._check(_native.call.rlvc_policy_size(agent._handle, _byref(native), _byref(size)))
-        try:
-            block = np.empty(size.value // 8 + 1, np.uint64)
-        except (MemoryError, ValueError):
-            raise BlockError(f"not enough memory for {size.value} bytes") from None
+        block = allocated(size.value, "a policy", "reduce percepts or entries")
         policy, info = ctypes.c_void_p(), _native.PolicyInfo()
         place = (block.ctypes.data, size.value)
         agent._check(
             agent._long("rlvc_policy_make", _byref(native), *place, _byref(policy), _byref(info))
         )
-        self._domain, self._config, self._guard = agent._domain, agent._config, agent._guard
-        self._native_domain = agent._native_domain
-        self._pack, self._pack_many = agent._pack, agent._pack_many
-        self._block = block
-        self._handle = self._address = policy.value
-        self._memory_bytes = size.value
-        self._action = ctypes.c_uint32()
-        self._answer = _byref(self._action)
         fields = {field.name: getattr(info, field.name) for field in dataclasses.fields(Compaction)}
         flags = {name: bool(fields[name]) for name in ("exact", "as_agent")}
-        self.info = Compaction(**(fields | flags))
+        made = Compaction(**(fields | flags))
+        place_of = (agent._domain, agent._guard, agent._native_domain)
+        self._settle(*place_of, block, policy.value, made)
+        self._pack, self._pack_many = agent._pack, agent._pack_many
+
+    def _settle(
+        self,
+        domain: Domain,
+        guard: Guard,
+        native: _native.Domain,
+        block: npt.NDArray[np.uint64],
+        address: int | None,
+        info: Compaction,
+    ) -> None:
+        """Take over the policy that was made in a block."""
+        self._domain, self._guard, self._native_domain = domain, guard, native
+        self._pack, self._pack_many = domain.pack, domain.pack_many
+        self._block = block
+        self._handle = self._address = address
+        self._memory_bytes = 8 * block.size
+        self._action = ctypes.c_uint32()
+        self._answer = _byref(self._action)
+        self.info = info
 
     def act(self, percept: Percept) -> int | npt.NDArray[np.uint32]:
         """Return the action at a percept, or at each percept of an array.

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -96,6 +96,67 @@ class Statistics:
     refused: int
     sweeps: int
     residual: float
+
+
+Acting = Literal["random", "explore", "new", "again"]
+Verdict = Literal["learnt", "no_episode", "no_difference", "no_model"]
+
+
+@dataclasses.dataclass(frozen=True)
+class PlannerStatistics:
+    """Statistics of a planner.
+
+    Attributes
+    ----------
+    interactions, episodes : int
+        Number observed, and number that ended, since the planner was made.
+    explored : int
+        Number of interactions in episodes that explored.
+    fits, searches : int
+        How often the model was fitted, and how often it was searched.
+    candidates : int
+        Number of trees that the searches looked at.
+    leaves : int
+        Leaves of the learnt policy; 1 while there is none.
+    tried : int
+        Number of episodes in which the learnt policy acted.
+    score : float
+        What the learnt policy is expected to earn in an episode.
+    beta : float
+        How far the model is trusted, [0.05, 1].
+    deviation : float
+        Typical deviation of an episode's return from the policy's mean.
+    acting : {"random", "explore", "new", "again"}
+        What acts in this episode: random actions, a tree that the model expects to see what is new, a
+        tree that was found in the model, or one of the best again.
+    verdict : {"learnt", "no_episode", "no_difference", "no_model"}
+        Whether anything was learnt, and if not, why: no episode ended, all episodes earned the same,
+        or the model does not predict what policies earn.
+    """
+
+    interactions: int
+    episodes: int
+    explored: int
+    fits: int
+    searches: int
+    candidates: int
+    leaves: int
+    tried: int
+    score: float
+    beta: float
+    deviation: float
+    acting: Acting
+    verdict: Verdict
+
+    @classmethod
+    def of(cls, native: Any) -> PlannerStatistics:
+        """Make it of the C struct."""
+        fields = {field.name: getattr(native, field.name) for field in dataclasses.fields(cls)}
+        names = {
+            "acting": get_args(Acting)[native.acting],
+            "verdict": get_args(Verdict)[native.verdict],
+        }
+        return cls(**(fields | names))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -3,8 +3,5 @@
 
 from .encode import Encoder, Numbers, explain
 from .run import Record, Run
-from .shrink import shrink
-from .small_policy import SmallPolicy
-from .trials import Trials
 
-__all__ = ["Encoder", "Numbers", "Record", "Run", "SmallPolicy", "Trials", "explain", "shrink"]
+__all__ = ["Encoder", "Numbers", "Record", "Run", "explain"]

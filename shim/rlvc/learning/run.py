@@ -4,19 +4,43 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import _native
 from ..agent.agent import Agent
+from ..agent.planned_policy import PlannedPolicy
+from ..agent.planner import Planner
 from ..agent.policy import Policy
+from ..agent.results import PlannerStatistics
 from ..checks import whole
+from ..errors import RunError
 from . import boundary
 from .encode import Encoder
-from .small_policy import SmallPolicy
 
 if TYPE_CHECKING:
     import gymnasium
+
+_CLEARLY = 4  # standard deviations above the worst return: hardly by chance
+_VERDICTS = {
+    "learnt": "",
+    "no_episode": "nothing was learnt: no episode ended",
+    "no_difference": "nothing was learnt: all episodes had the same return",
+    "no_model": "perhaps nothing was learnt: the model of the world does not predict returns",
+}
+
+
+def _warning(statistics: PlannerStatistics, returns: list[float]) -> str:
+    """Why a planner has learnt nothing; empty if it has learnt something."""
+    if statistics.episodes > 0 and statistics.fits == 0:
+        return "nothing was learnt: too few interactions for a model of the world"
+    # If all policies of late are good, there is nothing to predict about them.
+    clearly = min(returns, default=math.nan) + _CLEARLY * statistics.deviation
+    if statistics.verdict == "no_model" and statistics.score > clearly:
+        return ""
+    return _VERDICTS[statistics.verdict]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,9 +54,9 @@ class Record:
     interactions : int
         Number so far.
     classes : int
-        Number after the step.
+        Leaves of the tree after the step: of an agent its classes.
     splits : int
-        Number made in the step.
+        Number made in the step; 0 of a planner.
     episodes : int
         Number that ended since the previous step.
     mean_return : float
@@ -52,27 +76,102 @@ class Run:
 
     Attributes
     ----------
-    agent : Agent
+    learner : Agent, Planner or PlannedPolicy
+        What learnt: a planner on real numbers, else an agent. A copy of a planner's run, pickled or
+        not, has only the planner's policy: it acts, but does not learn on.
     encoder : Encoder or None
         None if there are no observations, only percepts.
     history : list of Record
-        One record for each learning step; with trials also one for each episode of the last
-        quarter.
+        One record for each learning step; of a planner one for each episode.
     seed : int
     interrupted : bool
         Whether Ctrl-C ended learning.
-    small : SmallPolicy or None
-        With trials: the best small policy. It acts in place of the agent's tree.
     """
 
-    def __init__(self, agent: Agent, encoder: Encoder | None, seed: int, start: int = 0) -> None:
-        self.agent = agent
+    def __init__(
+        self, learner: Agent | Planner, encoder: Encoder | None, seed: int, start: int = 0
+    ) -> None:
+        self.learner: Agent | Planner | PlannedPolicy = learner
+        self._kept: tuple[int, str] | None = None  # of a copy: interactions and warning
         self.encoder = encoder
         self.seed = seed
         self.history: list[Record] = []
         self.interrupted = False
-        self.small: SmallPolicy | None = None
         self._start = start
+
+    @property
+    def agent(self) -> Agent:
+        """The agent that learnt; :class:`~rlvc.errors.RunError` if a planner did."""
+        if not isinstance(self.learner, Agent):
+            raise RunError(
+                "agent: a planner learnt: use run.planner, or learn with method='classes'"
+            )
+        return self.learner
+
+    @property
+    def planner(self) -> Planner:
+        """The planner that learnt; :class:`~rlvc.errors.RunError` if an agent did."""
+        if not isinstance(self.learner, Planner):
+            raise RunError("planner: an agent learnt, or this is a copy: use run.learner")
+        return self.learner
+
+    @property
+    def leaves(self) -> int:
+        """Leaves of the tree that acts: of an agent its classes."""
+        learner = self.learner
+        if isinstance(learner, PlannedPolicy):
+            return learner.info.leaves
+        return learner.classes if isinstance(learner, Agent) else learner.statistics.leaves
+
+    @property
+    def interactions(self) -> int:
+        """Number that was learnt from."""
+        if isinstance(self.learner, PlannedPolicy):
+            return self._kept[0] if self._kept else 0
+        return self.learner.statistics.interactions
+
+    @property
+    def warning(self) -> str:
+        """Why nothing was learnt, in one line; empty if something was."""
+        if isinstance(self.learner, Planner):
+            return _warning(
+                self.learner.statistics, [record.mean_return for record in self.history]
+            )
+        if isinstance(self.learner, PlannedPolicy):
+            return self._kept[1] if self._kept else ""
+        if self.learner.classes > 1:
+            return ""
+        return "one class: no difference in rewards or in what follows was found"
+
+    def policy(self) -> Policy:
+        """Make a policy by itself, to export: that of the planner, or the agent's ``compact()``.
+
+        Returns
+        -------
+        Policy
+        """
+        learner = self.learner
+        if isinstance(learner, PlannedPolicy):
+            return learner
+        return learner.policy() if isinstance(learner, Planner) else learner.compact()
+
+    def percept(self, observation: Any) -> Any:
+        """Encode an observation; of a planner, numbers beyond its range are clipped.
+
+        Parameters
+        ----------
+        observation : element of the environment's space
+
+        Returns
+        -------
+        bytes or ndarray
+            A percept that the agent or planner takes.
+        """
+        percept = self.encoder.encode(observation) if self.encoder else observation
+        if isinstance(self.learner, Agent):
+            return percept
+        most = _native.PLANNER_NUMBER_MAX
+        return np.frombuffer(self.learner.domain.pack(percept), np.float32).clip(-most, most)
 
     def act(self, observation: Any, policy: Policy | None = None) -> int:
         """Return the action of the learnt policy.
@@ -81,20 +180,22 @@ class Run:
         ----------
         observation : element of the environment's space
         policy : Policy or None
-            A result of ``run.agent.compact()`` to use instead.
+            A result of :meth:`policy` to use instead.
 
         Returns
         -------
         int
             An element of the action space: ``Discrete.start`` is added.
         """
-        percept = self.encoder.encode(observation) if self.encoder else observation
+        percept = self.percept(observation)
         if policy is not None:
             action = policy.act(percept)
-        elif self.small:
-            action = self.small.act(np.frombuffer(self.agent.domain.pack(percept), np.float32))
+        elif isinstance(self.learner, PlannedPolicy):
+            action = self.learner.act(percept)
+        elif isinstance(self.learner, Planner):
+            action = self.learner.predict(percept)
         else:
-            action = self.agent.predict(percept).action
+            action = self.learner.predict(percept).action
         return int(action) + self._start
 
     def evaluate(
@@ -113,7 +214,7 @@ class Run:
         seed : int
             Seed of the first reset.
         policy : Policy or None
-            A result of ``run.agent.compact()`` to use instead.
+            A result of :meth:`policy` to use instead.
 
         Returns
         -------
@@ -147,10 +248,21 @@ class Run:
         Returns
         -------
         str
+            If nothing was learnt, the last line is the :attr:`warning`.
         """
-        text = self.small.text() if self.small else self.agent.print("text")
-        return self.encoder.explain(text) if self.encoder else text
+        text = self.learner.print("text")
+        if self.encoder:
+            text = self.encoder.explain(text)
+        return f"{text}{self.warning}\n" if self.warning else text
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickle the policy in place of a planner."""
+        state = dict(self.__dict__)
+        if isinstance(self.learner, Planner):
+            state["learner"] = self.learner.policy()
+            state["_kept"] = (self.interactions, self.warning)
+        return state
 
     def __repr__(self) -> str:
         """Describe the run."""
-        return f"<rlvc.Run: {self.agent!r}>"
+        return f"<rlvc.Run: {self.learner!r}>"

@@ -5,8 +5,8 @@ All functions take the same parameters:
 
 ``source``
     A report as a dict, the file of a report (``run_gridworld --json`` and ``python -m rlvc learn
-    --json`` write them), a :class:`~rlvc.Run` or an :class:`~rlvc.Agent`. Each function lists the
-    members of the report that it needs.
+    --json`` write them), a :class:`~rlvc.Run`, or an :class:`~rlvc.Agent`, :class:`~rlvc.Planner` or
+    :class:`~rlvc.Policy`. Each function lists the members of the report that it needs.
 ``file``
     Where to save the figure: a .png or a .svg. None: it is not saved.
 ``objects``

@@ -72,6 +72,8 @@ def splits(source: Source, file: str | Path | None = None) -> Figure:
     found = [node for node in report["tree"]["nodes"] if "test" in node]
     if not found:
         raise RunError("the tree has a single class: there is no split to draw")
+    if "split" not in found[0]:
+        raise RunError("the tree of a planner: its tests have no learning steps to draw")
     found.sort(key=lambda node: node["split"])
     tests: dict[str, int] = {}
     for node in found:

@@ -18,10 +18,13 @@ from .. import files
 from .. import objects as _objects
 from .. import report as _report
 from ..agent.agent import Agent
+from ..agent.planner import Planner
+from ..agent.policy import Policy
 from ..errors import RunError
+from ..learning.encode import explain
 from ..learning.run import Run
 
-Source: TypeAlias = "dict[str, Any] | str | Path | Run | Agent"
+Source: TypeAlias = "dict[str, Any] | str | Path | Run | Agent | Planner | Policy"
 
 BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#4d4d4d"
 WALL, EXIT, PAPER = "#3a3a3a", "#E69F00", "#ffffff"
@@ -34,7 +37,7 @@ def reports(source: Source) -> list[dict[str, Any]]:
         source = _report.read(source)
     if isinstance(source, Run):
         source = _report.make(source)
-    elif isinstance(source, Agent):
+    elif isinstance(source, Agent | Planner | Policy):
         source = {"tree": source.tree}
     if not isinstance(source, dict):
         raise RunError(f"a report, a file, a run or an agent is drawn, not {type(source).__name__}")
@@ -136,4 +139,4 @@ def explained(name: str, report: dict[str, Any]) -> str:
                 place = percept[f"{axis}_bits"].index(int(match[1]))
                 return f"{name}: {2**place} of {axis}"
         return f"{name}: distractor"
-    return name
+    return explain(name, names)

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: MIT
+"""The policy of a planner, and its file.
+
+The file is a line ``rlvc policy 1``, a line of JSON, and the CRC-32 of both in 4 bytes, lowest first.
+The JSON has ``thresholds``, the parameters of the domain, ``names`` (of the components), ``actions``
+and ``nodes``.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import json
+import zlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from .. import _native
+from ..checks import real, whole
+from ..domains.callbacks import Guard
+from ..domains.thresholds import Thresholds
+from ..errors import ConfigError, Error, RangeError, SnapshotError, StoreError
+from ..files import open_file, read, replace, tidy
+from .handle import allocated
+from .policy import Compaction, Policy
+
+_MAGIC = b"rlvc policy 1\n"
+_byref = ctypes.byref
+
+
+class PlannedPolicy(Policy):
+    """The policy of a planner: a small tree of tests x[i] > c. It is saved, loaded and pickled.
+
+    :meth:`rlvc.Planner.policy` makes one.
+
+    Parameters
+    ----------
+    domain : Thresholds
+        The percepts.
+    actions : int
+        Number of actions, [1, 64].
+    nodes : sequence of (cutpoint, component, child, action)
+        The tree, [1, 31] nodes: x[component] > cutpoint leads to node child + 1, else to node child;
+        of a leaf the component is 65535. The j-th test's child is 2j + 1.
+
+    Attributes
+    ----------
+    info : Compaction
+        Numbers of leaves.
+    nodes : list of tuple
+    actions : int
+
+    Raises
+    ------
+    RangeError
+        The nodes are not such a tree.
+    """
+
+    def __init__(self, domain: Thresholds, actions: int, nodes: Sequence[Sequence[Any]]) -> None:
+        self.actions = whole("actions", actions, 1, _native.PLANNER_ACTIONS_MAX, RangeError)
+        self.nodes = [_node(*node) for node in nodes]
+        size, guard = _native.PLANNER_POLICY_BYTES, Guard()
+        block = allocated(size, "a policy", "close what is not needed")
+        native = domain.native(guard)
+        tests = (_native.PlannerTest * max(1, len(self.nodes)))(
+            *(_native.PlannerTest(*node) for node in self.nodes)
+        )
+        policy, place = ctypes.c_void_p(), (block.ctypes.data, size)
+        tree = (tests, len(self.nodes), self.actions)
+        self._check(
+            _native.call.rlvc_planner_policy_of(*tree, _byref(native), *place, _byref(policy))
+        )
+        inner = {node[:2] for node in self.nodes if node[1] != _native.PLANNER_LEAF}
+        leaves = len(self.nodes) // 2 + 1
+        info = Compaction(leaves, leaves, leaves, 0, len(inner), size, False, True)
+        self._settle(domain, guard, native, block, policy.value, info)
+
+    def save(self, file: str | Path, names: Sequence[str] = ()) -> None:
+        """Write the policy to a file. A failure leaves the old file.
+
+        Parameters
+        ----------
+        file : str or Path
+        names : sequence of str
+            Names of the components.
+
+        Raises
+        ------
+        StoreError
+            The file cannot be written, or is a link, a folder, a FIFO or a device.
+        """
+        if isinstance(names, str) or not all(isinstance(name, str) for name in names):
+            raise ConfigError(f"names: {names!r:.80} is not a list of str")
+        head = {
+            "thresholds": self._thresholds.parameters,
+            "names": list(names),
+            "actions": self.actions,
+            "nodes": self.nodes,
+        }
+        content = _MAGIC + json.dumps(head).encode() + b"\n"
+        replace(file, content + zlib.crc32(content).to_bytes(4, "little"))
+
+    @property
+    def _thresholds(self) -> Thresholds:
+        domain = self._domain
+        assert isinstance(domain, Thresholds)
+        return domain
+
+    @classmethod
+    def load(cls, file: str | Path) -> PlannedPolicy:
+        """Read a policy from a file.
+
+        Parameters
+        ----------
+        file : str or Path
+
+        Returns
+        -------
+        PlannedPolicy
+
+        Raises
+        ------
+        StoreError
+            The file cannot be read.
+        SnapshotError
+            It is not such a file, or is corrupt.
+        """
+        return read_file(file)[0]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the nodes."""
+        return type(self), (self._thresholds, self.actions, self.nodes)
+
+
+def _node(cutpoint: Any, component: Any, child: Any, action: Any) -> tuple[float, int, int, int]:
+    """Check the types of a node, and that its numbers fit into C's."""
+    return (
+        real("cutpoint", cutpoint, RangeError),
+        whole("component", component, 0, 2**16 - 1, RangeError),
+        whole("child", child, 0, 2**8 - 1, RangeError),
+        whole("action", action, 0, 2**8 - 1, RangeError),
+    )
+
+
+def is_policy(file: str | Path) -> bool:
+    """Whether a file can be read and begins as that of a policy."""
+    with contextlib.suppress(OSError), open_file(file) as opened:
+        return opened.read(len(_MAGIC)) == _MAGIC
+    return False
+
+
+def read_file(file: str | Path) -> tuple[PlannedPolicy, list[str]]:
+    """Read a policy and the names of its components: see :meth:`PlannedPolicy.load`.
+
+    Parameters
+    ----------
+    file : str or Path
+
+    Returns
+    -------
+    PlannedPolicy, list of str
+    """
+    try:
+        tidy(file)
+        content = read(file)
+    except OSError as error:
+        raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
+    if not content.startswith(_MAGIC):
+        raise SnapshotError(f"{file}: not the file of a policy")
+    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
+        raise SnapshotError(f"{file}: damaged: the checksum is wrong")
+    try:
+        head = json.loads(content[len(_MAGIC) : -4])
+        policy = PlannedPolicy(Thresholds(*head["thresholds"]), head["actions"], head["nodes"])
+        return policy, [str(name) for name in head["names"]]
+    except (Error, KeyError, RecursionError, TypeError, ValueError) as error:
+        raise SnapshotError(f"{file}: damaged: {error}") from error
