@@ -26,7 +26,7 @@ rlvc = pytest.importorskip("rlvc")
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
 
-from suite import learners, options, report, runs, tasks, worlds  # noqa: E402
+from suite import controls, learners, options, report, runs, tasks, worlds  # noqa: E402
 
 ENVIRONMENT = {
     **os.environ, "PYTHONPATH": os.pathsep.join([str(TOOLS), os.environ.get("PYTHONPATH", "")]),
@@ -155,6 +155,64 @@ def test_reached():
     assert tasks.reached(looks, last=4) == 3
     assert tasks.reached(looks, first=4) == 2
     assert tasks.reached(looks, last=2) is None
+
+
+# ------------------------------------------------------------------------- tasks of control
+
+def lean(rows):
+    """Pushes a pole where it falls: it stands for some 200 steps."""
+    return (rows[:, 2] + rows[:, 3] > 0).astype(np.int64)
+
+
+def test_a_pole_played_at_once_falls_as_in_an_environment():
+    one_by_one = controls.mean_return(lambda: gymnasium.make("CartPole-v1"), lean, 200)
+    assert controls.balance(lean, 200) == pytest.approx(one_by_one, rel=0.1)
+
+
+@pytest.mark.parametrize("noise", [{"components": 4}, {"error": 0.02}])
+def test_noise_is_what_is_said(noise):
+    rows = []
+
+    def act(seen):
+        rows.append(seen)
+        return lean(seen)
+
+    controls.balance(act, 50, **noise)
+    env = controls.Noise(gymnasium.make("CartPole-v1"), **noise)
+    first = np.array([env.reset(seed=seed)[0] for seed in range(200)])
+    assert first.dtype == rows[0].dtype == np.float32
+    assert first.shape[1:] == rows[0].shape[1:] == env.observation_space.shape
+    for seen in (first, np.concatenate(rows)):
+        assert seen[:, 4:].std(axis=0) == pytest.approx([1] * noise.get("components", 0), rel=0.2)
+    # Reset is within 0.05, evenly: a deviation of 0.0289.
+    expected = np.hypot(0.05 / 3**0.5, noise.get("error", 0) * np.array([1, 1, 0.2, 1]))
+    assert first[:, :4].std(axis=0) == pytest.approx(expected, rel=0.2)
+
+
+def test_three_torques():
+    env = controls.Torques(gymnasium.make("Pendulum-v1"))
+    assert env.action_space.n == 3
+    assert [float(env.action(a)[0]) for a in range(3)] == [-2, 0, 2]
+    still = controls.mean_return(lambda: env, lambda rows: np.ones(len(rows), int), 1)
+    assert -2000 < still < -500
+
+
+def test_a_planner_on_a_task_of_control(monkeypatch):
+    short = dataclasses.replace(tasks.TASKS["cartpole"](), interactions=600)
+    monkeypatch.setitem(tasks.TASKS, "cartpole", lambda: short)
+    record = runs.measure("cartpole", "rlvc", 1)
+    assert record["looks"][-1][0] == 600
+    assert record["value"] == record["kept"] == record["looks"][-1][1]
+    assert record["leaves"] == record["compacted"] <= 16
+    assert record["distractors"] is None
+    assert "share of runs with a return of 475 by 12 leaves" in report.render([record], ["cartpole"], ["rlvc"])
+
+
+def test_first_and_final_returns():
+    record = {"looks": [[1000, 10, None], [2000, 480, None], [4000, 300, None], [6000, 480, None]]}
+    assert tasks._first(475)([record]) == 2000
+    assert tasks._first(490)([record]) == float("inf")
+    assert [tasks._by(n, 475)([record]) for n in (500, 2500, 5000, 7000)] == [0, 1, 0, 1]
 
 
 # ------------------------------------------------------------------------- measuring

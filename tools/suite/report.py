@@ -18,7 +18,7 @@ HEAD = (
 LEGEND = """\
 Figures are medians over runs.
 
-- return: of an episode of the greedy policy at the end; exact, except for CartPole
+- return: of an episode of the greedy policy at the end; exact on bits
 - optimal: share of states in which the policy takes only optimal actions, whatever the distractors are
 - reached, worst: interactions after which the policy was good enough at every check (see the task); the
   median and the worst run
@@ -116,9 +116,10 @@ def _configuration(records):
         return []
     fields = ", ".join(f"{name} {' or '.join(map(str, used))}" for name, used in values.items())
     return [
-        f"rlvc {rlvc.__version__} with the defaults of rlvc.learn in all tasks. A task sets the "
-        "discount, the seed and the number of interactions. A learning step follows each hundredth of "
-        f"them, at least 100; the memory holds them all. The rest: {fields}.",
+        f"rlvc {rlvc.__version__} with the defaults of rlvc.learn in all tasks: a planner on real "
+        "numbers, an agent on bits. A task sets the seed, the number of interactions and, on bits, the "
+        "discount. An agent learns after each hundredth of the interactions, at least 100; the memory "
+        f"holds them all. The rest: {fields}.",
         "",
     ]
 

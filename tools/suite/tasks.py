@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The tasks, and the bars that rlvc must meet on them.
 
-All tasks are learnt with one configuration: a task sets the discount, the number of interactions and the
-seed of ``rlvc.learn``, and nothing else.
+All tasks are learnt with one configuration: a task sets the number of interactions and the seed of
+``rlvc.learn`` and, on bits, the discount, and nothing else.
 """
 
 import dataclasses
@@ -17,7 +17,7 @@ import numpy as np
 
 import rlvc.envs  # noqa: F401 - registers the mazes
 
-from . import options, worlds
+from . import controls, options, worlds
 
 MAZES = Path(__file__).resolve().parents[2] / "examples" / "gridworld" / "mazes"
 DISTRACTORS = 6
@@ -192,36 +192,90 @@ def taxi():
     return _text("taxi", functools.partial(gymnasium.make, "Taxi-v3"), parts, 30000, 7.8, 80)
 
 
-def _balance(act):
-    """The mean return of EPISODES episodes of CartPole, played in parallel."""
-    limit = gymnasium.spec("CartPole-v1").max_episode_steps
-    env = gymnasium.make_vec(
-        "CartPole-v1", num_envs=EPISODES, vectorization_mode="vector_entry_point"
-    )
-    observations, _ = env.reset(seed=0)
-    alive, total = np.ones(EPISODES, bool), 0
-    for _ in range(limit):
-        observations, _, fell, _, _ = env.step(act(observations).astype(np.int64))
-        total += alive.sum()
-        alive &= ~fell
-        if not alive.any():
-            break
-    return float(total / EPISODES)
+def _share(wanted, leaves, limit):
+    """A bar: the share of runs whose policy has at least that return, and at most so many leaves."""
+    good = share(lambda record: record["kept"] >= wanted and record["compacted"] <= leaves)
+    text = f"share of runs with a return of {wanted} by {leaves} leaves"
+    return Bar(text, good, limit, True)
+
+
+def _first(wanted):
+    """Interactions after which a policy first had that return; infinite if none had."""
+
+    def first(record):
+        return min((n for n, value, _ in record["looks"] if value >= wanted), default=math.inf)
+
+    return lambda records: statistics.median(map(first, records))
+
+
+def _by(interactions, wanted):
+    """The share of runs whose policy has that return after so many interactions."""
+
+    def good(record):
+        values = [value for n, value, _ in record["looks"] if n <= interactions]
+        return bool(values) and values[-1] >= wanted
+
+    return share(good)
+
+
+def _control(name, make, play, interactions, wanted, bars, peers=()):
+    def look(act, done):
+        value = play(act, EPISODES)
+        return Look(value, None, value >= wanted)
+
+    return Task(
+        name, f"asked: a return of {wanted}, mean of {EPISODES} episodes", 0.98, interactions,
+        lambda seed: make(), look, bars, peers=peers,
+    )  # fmt: skip
 
 
 def cartpole():
-    def look(act, done):
-        value = _balance(act)
-        return Look(value, None, value >= 475)
+    bars = (
+        _share(475, 12, 1.0),
+        Bar("share of runs with a return of 475 after 5,000 interactions", _by(5000, 475), 0.95, True),
+        Bar("interactions to the first return of 475, median", _first(475), 1500),
+        Bar("leaves, median", median("compacted"), 5),
+    )
+    make = functools.partial(gymnasium.make, "CartPole-v1")
+    return _control("cartpole", make, controls.balance, 20000, 475, bars, ("fqi", "dqn"))
 
-    good = share(lambda record: record["kept"] >= 475 and record["compacted"] <= 12)
 
-    return Task(
-        "cartpole", f"asked: a return of 475, mean of {EPISODES} episodes", 0.98, 20000,
-        lambda seed: gymnasium.make("CartPole-v1"), look,
-        (Bar("share of runs with a return of 475 by 12 leaves after compaction", good, 0.9, True),),
-        peers=("fqi", "dqn"),
-    )  # fmt: skip
+def _noisy_pole(name, wanted, **noise):
+    def make():
+        return controls.Noise(gymnasium.make("CartPole-v1"), **noise)
+
+    play = functools.partial(controls.balance, **noise)
+    return _control(name, make, play, 10000, wanted, (_share(wanted, 12, 0.95),))
+
+
+def _classic(name, make, interactions, wanted, leaves, limit):
+    play = functools.partial(controls.mean_return, make)
+    return _control(name, make, play, interactions, wanted, (_share(wanted, leaves, limit),))
+
+
+def noise():
+    return _noisy_pole("noise", 475, components=4)
+
+
+def sensors():
+    return _noisy_pole("sensors", 450, error=0.02)
+
+
+def car():
+    make = functools.partial(gymnasium.make, "MountainCar-v0")
+    return _classic("car", make, 5000, -110, 8, 1.0)
+
+
+def acrobot():
+    make = functools.partial(gymnasium.make, "Acrobot-v1")
+    return _classic("acrobot", make, 10000, -95, 12, 0.9)
+
+
+def pendulum():
+    def make():
+        return controls.Torques(gymnasium.make("Pendulum-v1"))
+
+    return _classic("pendulum", make, 10000, -250, 16, 0.8)
 
 
 def far():
@@ -290,5 +344,8 @@ def changing():
     )  # fmt: skip
 
 
-_MAKERS = (binary, lake, slippery, taxi, cartpole, far, nothing, wander, changing)
+_MAKERS = (
+    binary, lake, slippery, taxi, cartpole, noise, sensors, car, acrobot, pendulum, far, nothing, wander,
+    changing,
+)  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}

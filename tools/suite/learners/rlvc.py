@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""rlvc, with the defaults of ``rlvc.learn``."""
+"""rlvc, with the defaults of ``rlvc.learn``: a planner on real numbers, an agent on bits."""
 
 import dataclasses
 
 import numpy as np
+from gymnasium import spaces
 
 import rlvc
 
@@ -13,29 +14,42 @@ def _encode(run, rows):
 
 
 def _act(run):
-    if run.small is not None:  # a small policy, found by trials
-        return lambda rows: run.small.act(np.asarray(rows, np.float32))
+    if isinstance(run.learner, rlvc.Planner):
+        return lambda rows: run.planner.predict(_encode(run, rows))
     return lambda rows: run.agent.predict(_encode(run, rows)).action
 
 
 def _compact(run):
-    if run.small is not None:
-        return run.small.leaves, _act(run)
-    policy = run.agent.compact()
+    policy = run.policy()
     return policy.info.leaves, lambda rows: policy.act(_encode(run, rows))
+
+
+def _on_bits(run, task):
+    """How many tests of an agent's tree are of distractors."""
+    noise = [] if task.world is None else task.world.distractors.tolist()
+    return sum(int(split.feature) in noise for split in run.agent.splits) if noise else 0
 
 
 def learn(task, seed, check):
     """One run; see the head of this package."""
-    run = rlvc.learn(
-        task.make(seed), task.interactions, seed=seed, discount=task.discount,
-        callback=lambda run: check(run.history[-1].interactions, _act(run)),
-    )  # fmt: skip
-    noise = [] if task.world is None else task.world.distractors.tolist()
+    env = task.make(seed)
+    real = isinstance(env.observation_space, spaces.Box)
+    looked = []  # the tree at the last look: a planner's often stays as it is
+
+    def look(run, last=False):
+        tree = run.planner.print() if real else None
+        if not real or last or looked != [tree]:
+            looked[:] = [tree]
+            check(run.history[-1].interactions if not last else task.interactions, _act(run))
+
+    discount = {} if real else {"discount": task.discount}  # a planner has none
+    run = rlvc.learn(env, task.interactions, seed=seed, callback=look, **discount)
+    if real:
+        look(run, last=True)
     return {
-        "leaves": run.agent.classes,
-        "distractors": sum(int(split.feature) in noise for split in run.agent.splits) if noise else 0,
-        "bytes": run.agent.memory_bytes,
+        "leaves": run.leaves,
+        "distractors": None if real else _on_bits(run, task),
+        "bytes": run.learner.memory_bytes,
         "compact": lambda: _compact(run),
-        "config": dataclasses.asdict(run.agent.config),
+        "config": dataclasses.asdict(run.learner.config),
     }
