@@ -3,28 +3,20 @@
  *
  *     settings  how to learn, and the work of a tick      robot   a tick of the control loop
  *     report    what was learnt                           port    what depends on the machine
+ *     load      the instructions of slices and ticks
  *
  * Its output ends with a JSON object, which is the same on every machine. Exit status: 0 if no tick
  * overran and, under the residual criterion, every cell's action is the best one at the end; else
  * 1. */
+#include "load.h"
 #include "port.h"
 #include "report.h"
 #include <stdio.h>
 
-struct loads {
-    uint32_t slice; /* the most instructions of a slice, */
-    uint32_t tick;  /* and of a tick */
-    uint32_t overruns;
-};
-
-static int timed_tick(struct robot *robot, struct loads *loads) {
+static int timed_tick(struct robot *robot, struct load *load) {
     uint32_t start = port_instructions();
     int status = robot_tick(robot);
-    uint32_t tick = port_instructions() - start;
-    loads->tick = tick > loads->tick ? tick : loads->tick;
-    loads->slice =
-        robot->slice_instructions > loads->slice ? robot->slice_instructions : loads->slice;
-    loads->overruns += tick > TICK_INSTRUCTIONS || robot->slice_instructions > SLICE_INSTRUCTIONS;
+    load_add(load, robot->slice_instructions, port_instructions() - start);
     return status;
 }
 
@@ -44,11 +36,11 @@ static int watch(struct robot *robot, struct policy *policy, struct milestones *
 }
 
 static int run(struct robot *robot, struct policy *policy, struct milestones *reached,
-               struct loads *loads) {
+               struct load *load) {
     int status = robot_init(robot);
     report_task();
     while (status == 0 && robot->steps < STEPS) {
-        status = timed_tick(robot, loads);
+        status = timed_tick(robot, load);
         if (status == 0 && robot->finished) {
             status = watch(robot, policy, reached);
         }
@@ -60,17 +52,16 @@ int main(void) {
     static struct robot robot;
     static struct policy policy;
     struct milestones reached = {0, 0};
-    struct loads loads = {0, 0, 0};
+    struct load load = {SLICE_INSTRUCTIONS, TICK_INSTRUCTIONS, 0, 0, 0};
     port_begin();
-    if (run(&robot, &policy, &reached, &loads) != 0) {
+    if (run(&robot, &policy, &reached, &load) != 0) {
         printf("failed at interaction %u\n", (unsigned)robot.interactions);
         return 1;
     }
     report_pictures(&policy);
     report_summary(&robot, &policy, &reached);
-    printf("  overruns      %u\n\n", (unsigned)loads.overruns);
-    report_machine(loads.slice, loads.tick);
+    load_print(&load, robot_block_bytes());
     int optimal = policy.optimal_cells == gridworld_sutton.free_cells;
     int wanted = CRITERION == RLVC_CRITERION_RETURNS || optimal;
-    return report_json(&robot, &policy, &reached) == 0 && wanted && loads.overruns == 0 ? 0 : 1;
+    return report_json(&robot, &policy, &reached) == 0 && wanted && load.overruns == 0 ? 0 : 1;
 }

@@ -2,7 +2,6 @@
 /* The report: see report.h. */
 #include "report.h"
 
-#include "port.h"
 #include <stdio.h>
 
 #define DRAWS 16u /* percepts of each cell */
@@ -164,15 +163,6 @@ void report_summary(struct robot *robot, const struct policy *policy,
     printf("  interactions  %u\n", (unsigned)robot->interactions);
     printf("  patrols       %u ticks while learning, %u times at the exit\n",
            (unsigned)robot->patrols, (unsigned)robot->arrivals);
-}
-
-void report_machine(uint32_t slice, uint32_t tick) {
-    printf("On this machine\n  block         %u bytes\n", (unsigned)robot_block_bytes());
-    if (port_stack() > 0) {
-        printf("  stack         %u bytes\n", (unsigned)port_stack());
-        printf("  longest slice %u instructions of %u\n", (unsigned)slice, SLICE_INSTRUCTIONS);
-        printf("  longest tick  %u instructions of %u\n", (unsigned)tick, TICK_INSTRUCTIONS);
-    }
 }
 
 /* ------------------------------------------------------------------ JSON */

@@ -26,13 +26,12 @@ struct milestones {
 /* Looks the policy up. @return 0; -1: the agent failed. O(cells * depth). */
 int report_policy(struct robot *robot, struct policy *policy);
 
-/* Prints to standard output. What differs from machine to machine is only in report_machine. */
+/* Prints to standard output. */
 void report_task(void);
 void report_step(const struct robot *robot, const struct policy *policy);
 void report_pictures(const struct policy *policy);
 void report_summary(struct robot *robot, const struct policy *policy,
                     const struct milestones *reached);
-void report_machine(uint32_t slice, uint32_t tick);
 
 /* Prints one object of JSON, the same on every machine. @return 0; -1: it could not be written. */
 int report_json(struct robot *robot, const struct policy *policy, const struct milestones *reached);

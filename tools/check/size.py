@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The size of the core on microcontrollers: code and constant data of each module, worst stack of each
-public function, and the memory of the firmware example. Compares with core/SIZE.md, or writes it there
+public function, and the memory of the examples for microcontrollers. Compares with core/SIZE.md, or writes it there
 with --write. Needs the compilers that tools/setup targets installs."""
 
 import argparse
@@ -33,7 +33,13 @@ BARE = ["--crt0=minimal", "-Wl,--gc-sections", "-Wl,--defsym=__flash=0x80000000"
         "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x80200000",
         "-Wl,--defsym=__ram_size=0x10000"]  # an image that has nothing but what it needs
 FLASH_MAX = 18_000     # of the library without printing on the M3, by -Os
-RAM_MAX = 32 * 1024    # of learning the Binary Gridworld there
+PLANNER_FLASH_MAX = 48 * 1024  # of the library in a program that plans on the M4F, by -Os
+EXAMPLES = {  # name: heading, target, memory at most and stack set aside, a definition, sources
+    "firmware": ("Learning the Binary Gridworld", "M3", 32 * 1024, 2048, "FIRMWARE_RETURNS=0",
+                 ("main", "robot", "report")),
+    "balance": ("Learning to balance a pole", "M4F", 128 * 1024, 8192, "BALANCE_SHORT=0",
+                ("main", "cart_pole", "controller", "report")),
+}
 LEVELS = ("-O2", "-Os", "-Os -flto")
 LEAN = ("-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2")  # what a controller uses, one of each
 HELPER_STACK = 64      # granted to a function of the compiler's own library
@@ -87,6 +93,16 @@ void *volatile keep[] = {(void *)rlvc_bits_domain, (void *)rlvc_config_default,
 int main(void) { return keep[0] == 0; }
 """
 
+# Everything that learning on real numbers takes, and nothing of printing.
+PLANNER = """
+#include <rlvc/planner.h>
+void *volatile keep[] = {(void *)rlvc_planner_default, (void *)rlvc_planner_size, (void *)rlvc_planner_init,
+    (void *)rlvc_planner_begin, (void *)rlvc_planner_act, (void *)rlvc_planner_observe,
+    (void *)rlvc_planner_learn, (void *)rlvc_planner_budget_min, (void *)rlvc_planner_predict,
+    (void *)rlvc_planner_node, (void *)rlvc_planner_stats};
+int main(void) { return keep[0] == 0; }
+"""
+
 
 # What a compiler brings along where the processor has no such instruction.
 HELPERS = """
@@ -111,31 +127,35 @@ int main(void) {
 
 
 def linked(target, level, objects, folder):
-    """Bytes of flash of an empty program, one with the compiler's helpers, and one that learns."""
+    """Bytes of flash that the library takes of a program that learns by bits and of one that plans, and that the
+    compiler's helpers take."""
     prefix, options = TARGETS[target]
-    flash = []
-    for name, text, parts in (("empty", "int main(void) { return 0; }", []),
-                              ("helpers", HELPERS, []), ("learner", LEARNER, objects.values())):
+    flash = {}
+    for name, text, parts in (("empty", "int main(void) { return 0; }", []), ("helpers", HELPERS, []),
+                              ("learner", LEARNER, objects.values()),
+                              ("planner", PLANNER, objects.values())):
         source, image = folder / f"{name}.c", folder / f"{name}.elf"
         source.write_text(text, encoding="utf-8")
         run(prefix + "gcc", *FLAGS, *options, *level.split(), f"-I{ROOT}/core/include", *BARE, source,
             *parts, "-o", image)
         code, constants, _ = sections(prefix, image)
-        flash.append(code + constants)
-    return flash[2] - flash[1], flash[1] - flash[0]
+        flash[name] = code + constants
+    return {"learner": flash["learner"] - flash["helpers"], "planner": flash["planner"] - flash["helpers"],
+            "helpers": flash["helpers"] - flash["empty"]}
 
 
-def image_memory(folder):
-    """Static memory of the firmware example on the M3: the whole, and of that the block."""
-    prefix, options = TARGETS["M3"]
-    image = folder / "firmware.elf"
-    firmware = ROOT / "examples/firmware"
-    run(prefix + "gcc", *FLAGS, *options, "-O2", "-DFIRMWARE_RETURNS=0", f"-I{ROOT}/core/include",
+def image_memory(name, folder):
+    """Static memory of an example: the whole, and of that the block."""
+    _, target, ram, stack_bytes, definition, parts = EXAMPLES[name]
+    prefix, options = TARGETS[target]
+    image = folder / f"{name}.elf"
+    shared = ROOT / "examples/firmware"
+    run(prefix + "gcc", *FLAGS, *options, "-O2", f"-D{definition}", f"-I{ROOT}/core/include", f"-I{shared}",
         f"-I{ROOT}/examples/gridworld", "--crt0=semihost", "--oslib=semihost", "-Wl,--gc-sections",
         "-Wl,--defsym=__flash=0", "-Wl,--defsym=__flash_size=0x400000",
-        "-Wl,--defsym=__ram=0x20000000", "-Wl,--defsym=__ram_size=0x8000",
-        "-Wl,--defsym=__stack_size=0x800",
-        *[firmware / f"{name}.c" for name in ("main", "robot", "report", "port_bare")],
+        "-Wl,--defsym=__ram=0x20000000", f"-Wl,--defsym=__ram_size={ram}",
+        f"-Wl,--defsym=__stack_size={stack_bytes}",
+        *[ROOT / f"examples/{name}/{part}.c" for part in parts], shared / "load.c", shared / "port_bare.c",
         *(ROOT / "examples/gridworld").glob("*.c"), *sources(), "-o", image)
     block = 0
     for line in run(prefix + "nm", "-S", image).splitlines():
@@ -184,11 +204,38 @@ def stack_table(objects):
             str(graph.worst(name)[0]) for graph in graphs.values()) + " |"
 
 
+def flash_table(flash, program):
+    yield "| | " + " | ".join(TARGETS) + " |"
+    yield "|---|" + "--:|" * len(TARGETS)
+    for level, sizes in flash.items():
+        for what, parts in (("library", (program,)), ("helpers", ("helpers",)),
+                            ("together", (program, "helpers"))):
+            yield f"| {level}, {what} | " + " | ".join(
+                f"{sum(sizes[target][part] for part in parts):,}" for target in TARGETS) + " |"
+
+
+def memory_table(name, folder):
+    heading, target, ram, stack_bytes, _, _ = EXAMPLES[name]
+    memory, block = image_memory(name, folder)
+    yield f"""
+## Memory of the {name} example
+
+{heading} on the {target}, in an image that is linked for {ram:,} bytes of memory:
+
+| what | bytes |
+|---|--:|
+| the learner's block | {block:,} |
+| other static data, of the example and of its C library | {memory - block:,} |
+| stack set aside (measured: less than that) | {stack_bytes:,} |
+| all | {memory + stack_bytes:,} |"""
+    if memory + stack_bytes > ram:
+        raise SystemExit(f"too large: {memory + stack_bytes} bytes of memory of {name}")
+
+
 def table(folder, compilers):
     objects = {target: compile_core(target, "-O2", folder) for target in TARGETS}
     flash = {level: {target: linked(target, level, compile_core(target, level, folder / "lean", *LEAN), folder)
                      for target in TARGETS} for level in LEVELS}
-    memory, block = image_memory(folder)
     yield f"""# Size on microcontrollers
 
 {compilers}; bytes.
@@ -201,26 +248,18 @@ What the linker keeps of the library in a program that learns by bits and does n
 value iteration, one score, the information gain, and one criterion, the residual (`{' '.join(LEAN)}`,
 core/src/base/solver_select.h). Beside it stand the helpers that the compiler brings along where the processor
 lacks an instruction (floating point, division). On the M3 the library may take {FLASH_MAX:,} by -Os.
-
-| | {' | '.join(TARGETS)} |
-|---|{'--:|' * len(TARGETS)}"""
-    for level, sizes in flash.items():
-        for what, size in (("library", lambda pair: pair[0]), ("helpers", lambda pair: pair[1]),
-                           ("together", sum)):
-            yield f"| {level}, {what} | " + " | ".join(
-                f"{size(sizes[target]):,}" for target in TARGETS) + " |"
+"""
+    yield from flash_table(flash, "learner")
     yield f"""
-## Memory of the firmware example
+## A planner in flash
 
-Learning the Binary Gridworld on the M3, in an image that is linked for {RAM_MAX:,} bytes of memory:
-
-| what | bytes |
-|---|--:|
-| the agent's block | {block:,} |
-| other static data, of the example and of its C library | {memory - block:,} |
-| stack set aside (measured: less than that) | 2,048 |
-| all | {memory + 2048:,} |
-
+The same of a program that learns on real numbers (`rlvc/planner.h`). On the M4F the library may take
+{PLANNER_FLASH_MAX:,} by -Os.
+"""
+    yield from flash_table(flash, "planner")
+    for name in EXAMPLES:
+        yield from memory_table(name, folder)
+    yield """
 ## Modules
 
 Code and constant data of each, with `-O2`, before the linker leaves out what is not called.
@@ -233,10 +272,9 @@ With `-O2`, the callbacks that it calls not counted; {HELPER_STACK} are granted 
 library.
 """
     yield from stack_table(objects)
-    library = flash["-Os"]["M3"][0]
-    if library > FLASH_MAX or memory + 2048 > RAM_MAX:
-        print(f"too large: {library} bytes of flash, {memory + 2048} of memory", file=sys.stderr)
-        raise SystemExit(1)
+    library, planner = flash["-Os"]["M3"]["learner"], flash["-Os"]["M4F"]["planner"]
+    if library > FLASH_MAX or planner > PLANNER_FLASH_MAX:
+        raise SystemExit(f"too large: {library} bytes of flash of a learner, {planner} of a planner")
 
 
 def main():
