@@ -306,7 +306,8 @@ def test_default_run_learns_the_maze(tmp_path):
     made = report(cwd=tmp_path)
     assert made["optimal_cells"] == 46
     assert made["bits_used"] == [0, 1, 2, 3, 15, 16, 17] and made["distractors_used"] == 0
-    assert made["memory_bytes"] <= 36 * 1024
+    if "RLVC_RED_ZONES" not in os.environ:  # which lie between the arrays of the agent's block
+        assert made["memory_bytes"] <= 36 * 1024
     assert made["interactions_to_optimal"] <= made["interactions"] == 2500
 
 
