@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The checks of tools/check can fail: each rule is broken once, in a core of a few lines."""
 
+import json
 import pathlib
 import shutil
 import subprocess
@@ -209,3 +210,30 @@ def test_bits(tree):
     assert tree.check("bits", "--seeds", "1", one, two)[0] == 0
     status, output = tree.check("bits", "--seeds", "1", one, three)
     assert status == 1 and "--seed 1" in output
+
+
+def test_coverage(tree):
+    """What is missed is a fault, unless it is excused; so is an excuse for what is covered or gone."""
+    check = tree.folder / "tools/check/coverage.py"
+    text = check.read_text(encoding="utf-8")
+    begin = text.index("UNREACHABLE = [")
+    end = text.index("]", text.index("\n]", begin)) + 1
+
+    def run(missed, excuses):
+        check.write_text(f"{text[:begin]}UNREACHABLE = [{excuses}]{text[end:]}", encoding="utf-8")
+        summary = {measure: {"count": 9, "covered": 9 - missed.get(measure, 0)}
+                   for measure in ("functions", "lines", "branches", "mcdc")}
+        file = {"filename": str(tree.folder / "core/src/base/rng.c"), "summary": summary,
+                "branches": [[1, 5, 1, 9, 3, 0, 0, 0, 4]],
+                "mcdc_records": [[2, 5, 2, 9, 0, 5, [True, False]]]}
+        (tree.folder / "all.json").write_text(json.dumps({"data": [{"files": [file]}]}), encoding="utf-8")
+        return tree.check("coverage", tree.folder / "all.json")
+
+    excuse = 'Unreachable("core/src/base/rng.c", "return n + 1;", {"branches": 1}, "")'
+    assert run({}, "")[0] == 0
+    status, printed = run({"branches": 1, "mcdc": 1}, "")
+    assert status == 1 and ":1:5: never false" in printed and ":2:5: not shown to decide: condition 2" in printed
+    assert run({"branches": 1}, excuse)[0] == 0
+    assert run({"branches": 2}, excuse)[0] == 1
+    assert run({}, excuse)[0] == 1
+    assert run({"branches": 1}, excuse.replace("n + 1", "n + 2"))[0] == 1

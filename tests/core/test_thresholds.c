@@ -255,6 +255,9 @@ static void test_no_numbers(void **state) {
                                                : component > 0;
                 assert_int_equal(fails != 0, looks);
             }
+            /* Also in the middle of a call that began with sound ones. */
+            assert_int_not_equal(
+                f.domain.candidates(f.domain.ctx, &f.samples, 0, 21u * 8u, features, &written), 0);
             feature.component = (uint16_t)component;
             assert_int_not_equal(f.domain.exhibits(f.domain.ctx, x, &feature, &present), 0);
             feature.component = (uint16_t)((component + 1u) % COMPONENTS);

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/* The planner where percepts have many numbers and episodes are long. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "block.h"
+#include "base/rng.h"
+#include "rlvc/planner.h"
+#include <string.h>
+
+#define COMPONENTS 45u /* with two actions 47 terms: a fit that looks at ten rows a term */
+#define STEPS 200u     /* of an episode: more than there are cells of two components */
+
+static uint64_t memory[80000];
+
+/* Component 0 goes where the action says, the others are noise. */
+static void move(float *s, uint32_t action, rlvc_rng *rng) {
+    s[0] += action ? 0.01f : -0.01f;
+    for (uint32_t i = 1; i < COMPONENTS; i++)
+        s[i] = rlvc_rng_uniform(rng);
+}
+
+static void test_many_components(void **state) {
+    rlvc_planner_config config;
+    rlvc_planner *planner;
+    rlvc_progress progress;
+    rlvc_planner_statistics statistics;
+    rlvc_rng rng;
+    float s[COMPONENTS] = {0};
+    size_t bytes;
+    (void)state;
+    rlvc_rng_seed(&rng, 1);
+    assert_int_equal(rlvc_planner_default(&config, COMPONENTS, 2), RLVC_OK);
+    config.candidates = 50;
+    config.model_leaves = 4;
+    assert_int_equal(rlvc_planner_size(&config, &bytes), RLVC_OK);
+    assert_true(bytes <= sizeof memory);
+    assert_int_equal(rlvc_planner_init(&config, memory, sizeof memory, &planner), RLVC_OK);
+    for (uint32_t episode = 0; episode < 3; episode++) {
+        memset(s, 0, sizeof s);
+        assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+        for (uint32_t t = 1; t <= STEPS; t++) {
+            uint32_t action;
+            assert_int_equal(rlvc_planner_act(planner, &action), RLVC_OK);
+            move(s, action, &rng);
+            assert_int_equal(rlvc_planner_observe(planner, action, s[0], s,
+                                                  t == STEPS ? RLVC_TRUNCATED : RLVC_GOES_ON),
+                             RLVC_OK);
+        }
+        do {
+            assert_int_equal(rlvc_planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress),
+                             RLVC_OK);
+        } while (!progress.done);
+    }
+    assert_int_equal(rlvc_planner_stats(planner, &statistics), RLVC_OK);
+    assert_int_equal(statistics.interactions, 3 * STEPS);
+    assert_true(statistics.fits > 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_many_components),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
