@@ -237,3 +237,20 @@ def test_coverage(tree):
     assert run({"branches": 2}, excuse)[0] == 1
     assert run({}, excuse)[0] == 1
     assert run({"branches": 1}, excuse.replace("n + 1", "n + 2"))[0] == 1
+
+
+def test_an_image_that_has_passed_is_not_run_again(tmp_path):
+    image = tmp_path / "image"
+
+    def run(program, status=0):
+        image.write_text(f"#!/bin/sh\necho run >> runs\n{program}\n", encoding="utf-8")
+        image.chmod(0o755)
+        done = subprocess.run([sys.executable, "-B", CHECKS / "image.py", "--status", "--name",
+                               "image", "--", image], cwd=tmp_path, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
+        assert done.returncode == status
+        return len((tmp_path / "runs").read_text(encoding="utf-8").splitlines())
+
+    assert [run("exit 3", 1), run("exit 3", 1)] == [1, 2]
+    assert [run("exit 0"), run("exit 0")] == [3, 3]
+    assert [run("echo 1"), run("echo 1"), run("exit 3", 1)] == [4, 4, 5]
