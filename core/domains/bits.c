@@ -5,6 +5,8 @@
  * one word, and so has a matrix of 64 rows (samples) that it wants by columns (features). It
  * transposes in six steps: step j = 32, 16, ..., 1 exchanges, in each square of 2j x 2j bits on the
  * diagonal, the two j x j squares off it. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/bits.h"
 
 #define WORD_BITS 64u
@@ -17,8 +19,9 @@
 #define FETCH(address) ((void)(address))
 #endif
 
+/* The domain's ctx is their number less 1, which fits into a pointer of 16 bits, too. */
 static uint32_t bits_of(const void *ctx) {
-    return (uint32_t)(uintptr_t)ctx;
+    return (uint32_t)(uintptr_t)ctx + 1u;
 }
 
 static uint64_t bit_of(const unsigned char *percept, uint32_t bit) {
@@ -159,7 +162,7 @@ rlvc_status rlvc_bits_domain(uint32_t bits, rlvc_domain *domain) {
     if (bits == 0 || bits > RLVC_BITS_MAX)
         return RLVC_E_RANGE;
     const rlvc_domain made = {
-        .ctx = (void *)(uintptr_t)bits,
+        .ctx = (void *)(uintptr_t)(bits - 1u),
         .percept_bytes = RLVC_BITS_PERCEPT_BYTES(bits),
         .feature_bytes = RLVC_BITS_FEATURE_BYTES,
         .features_max = bits,

@@ -13,6 +13,8 @@
  * BINS equal intervals, and the radius is put into the longest row of empty ones which has a
  * percept on both sides. It is put near the far end: what was never seen of the thing itself tends
  * to be farther off than what was. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/descriptors.h"
 
 #include <string.h>

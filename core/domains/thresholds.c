@@ -11,6 +11,8 @@
  * key, a digit of eight bits at a time from the highest: one pass counts the digits of the keys
  * that begin as those found so far, and the next digit is where the sum of the counts passes the
  * rank. So nothing is sorted and no memory needed but the counts. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/thresholds.h"
 
 #include <string.h>

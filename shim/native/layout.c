@@ -10,6 +10,7 @@
 #include "rlvc/descriptors.h"
 #include "rlvc/domain.h"
 #include "rlvc/export.h"
+#include "rlvc/float_rules.h"
 #include "rlvc/log.h"
 #include "rlvc/min_tree.h"
 #include "rlvc/planner.h"

@@ -94,8 +94,9 @@ class Headers:
 
     def read_constants(self, text):
         for name, value in [*ENUMERATOR.findall(text), *DEFINE.findall(text)]:
-            plain = re.sub(r"\(uint(32|64)_t\)", "", value.replace("RLVC_", "")).strip()
-            if not NUMBER.fullmatch(plain) or name.startswith("VERSION"):
+            plain = re.sub(r"\(uint(?:32|64)_t\)|UINT32_C", "", value.replace("RLVC_", "")).strip()
+            # What a compiler predefines is another number on another target.
+            if not NUMBER.fullmatch(plain) or "__" in plain or name.startswith("VERSION"):
                 continue
             plain = re.sub(r"\b(0x[\da-fA-F]+|\d+)u\b|\b(\d[\d.]*(?:e\d+)?)f\b", r"\1\2", plain)
             self.constants[name] = eval(plain, {}, self.constants)

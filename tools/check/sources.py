@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Checks what the core's sources may say: which rooms they include (core/DESIGN.md), which
-headers of C, that they use no double, and that each names its licence."""
+headers of C, that they use no double, that each names its licence, and that floats are compiled by the rules."""
 
 import pathlib
 import re
@@ -72,7 +72,10 @@ def faults(path):
     if SOURCES in path.parents and room not in ROOMS:
         yield f"{name}: lies in no room of core/src: {', '.join(ROOMS)}"
         return
-    for match in INCLUDE.finditer(text):
+    includes = list(INCLUDE.finditer(text))
+    if path.suffix == ".c" and includes[0][2] != "rlvc/float_rules.h":
+        yield f"{name}: does not include rlvc/float_rules.h first"
+    for match in includes:
         if fault := fault_of_include(path, room, *match.groups()):
             yield f"{name}:{text.count(chr(10), 0, match.start(2)) + 1}: {fault}"
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)

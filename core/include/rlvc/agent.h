@@ -22,7 +22,14 @@ extern "C" {
 
 typedef struct rlvc_agent rlvc_agent;
 
+/* What a block must be aligned to, as every array of uint64_t is: to 8, or to what its target aligns
+ * to at most (an AVR: to 1). */
+#if defined(__BIGGEST_ALIGNMENT__) && __BIGGEST_ALIGNMENT__ < 8
+#define RLVC_ALIGNMENT ((unsigned)__BIGGEST_ALIGNMENT__)
+#else
 #define RLVC_ALIGNMENT 8u
+#endif
+
 #define RLVC_REWARD_MAX 1e12f
 
 /* config.criterion: which classes are aliased (section 4.2.2). */

@@ -17,9 +17,9 @@ extern "C" {
 #endif
 
 #define RLVC_MIN_TREE_ACTIONS_MAX 64u
-#define RLVC_MIN_TREE_ROWS_MAX (1u << 24)
+#define RLVC_MIN_TREE_ROWS_MAX (UINT32_C(1) << 24)
 #define RLVC_MIN_TREE_FEATURES_MAX 65535u
-#define RLVC_MIN_TREE_ENTRIES_MAX (1u << 28)
+#define RLVC_MIN_TREE_ENTRIES_MAX (UINT32_C(1) << 28)
 #define RLVC_MIN_TREE_EFFORT_MAX ((uint64_t)1 << 39)
 
 /* Words of a row. */

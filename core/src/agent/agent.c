@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The agent: making one, acting and observing (section 4.2.1, part 2), and asking it. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/agent.h"
 
 #include "config.h"

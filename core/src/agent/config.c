@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The config: defaults and ranges. */
+#include "rlvc/float_rules.h"
+
 #include "config.h"
 
 #include "../stats/rank_sum.h"
@@ -71,9 +73,9 @@ enum {
 };
 
 static int wrong_in_domain(const rlvc_domain *domain) {
-    if (domain->percept_bytes < 1 || domain->percept_bytes > (1u << 20))
+    if (domain->percept_bytes < 1 || domain->percept_bytes > (UINT32_C(1) << 20))
         return WRONG_DOMAIN_PERCEPT_BYTES;
-    if (domain->feature_bytes < 1 || domain->feature_bytes > (1u << 16))
+    if (domain->feature_bytes < 1 || domain->feature_bytes > (UINT32_C(1) << 16))
         return WRONG_DOMAIN_FEATURE_BYTES;
     if (!domain->exhibits)
         return WRONG_DOMAIN_EXHIBITS;

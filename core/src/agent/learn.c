@@ -20,6 +20,8 @@
  *
  * The whole state of a phase is in the learner and in the tables. So a budget may end between any
  * two elementary steps, and the result does not depend on where. */
+#include "rlvc/float_rules.h"
+
 #include "learn.h"
 
 #include "../base/float_math.h"

@@ -10,6 +10,8 @@
  *
  * Of the tables that lie idle between two learning steps, `pair` and `begin` hold the spread of
  * the targets, and `pending` what becomes of each class. */
+#include "rlvc/float_rules.h"
+
 #include "learn.h"
 #include "q_variance.h"
 #include "state.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How sure Q is: see q_variance.h. */
+#include "rlvc/float_rules.h"
+
 #include "q_variance.h"
 
 void rlvc_q_variance_measure(const rlvc_q_variance *variance, const rlvc_replay *replay,

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Carving the caller's block: see arena.h. */
+#include "rlvc/float_rules.h"
+
 #include "arena.h"
 
 void *rlvc_arena_carve_bytes(rlvc_arena *arena, uint64_t bytes) {

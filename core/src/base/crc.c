@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* CRC-32, half a byte at a time: 64 bytes of table do what a kilobyte would do less than twice as
  * fast. */
+#include "rlvc/float_rules.h"
+
 #include "crc.h"
 
 #define POLYNOMIAL 0xedb88320u

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Elementary functions in binary32: see float_math.h. */
+#include "rlvc/float_rules.h"
+
 #include "float_math.h"
 
 #include "assert.h"

@@ -3,6 +3,8 @@
  * eights. A byte of the sum over 31 words is at most 31 * 8 = 248 and does not overflow. This form
  * needs neither an instruction nor a library function for it, and compilers make vector code of it;
  * for that they want the loop in a function by itself, hence the file by itself. */
+#include "rlvc/float_rules.h"
+
 #include "popcount.h"
 
 #include "assert.h"

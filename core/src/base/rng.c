@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* PCG-XSH-RR 64/32. See rng.h. */
+#include "rlvc/float_rules.h"
+
 #include "rng.h"
 
 #include "assert.h"

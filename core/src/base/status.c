@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Statuses in words, and the library's version. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/rlvc.h"
 
 const char *rlvc_status_text(rlvc_status status) {

@@ -4,6 +4,8 @@
  * Phases of a fit: the sample (SAMPLE), its means and deviations (MEAN, DEVIATION); then for each
  * output, the reward first as its rows are [0, going), the target's (TARGET_MEAN, TARGET_DEVIATION)
  * and the trees (SHORT, FULL); then the endings (ENDING). */
+#include "rlvc/float_rules.h"
+
 #include "dynamics.h"
 
 #include "../base/float_math.h"

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Where episodes terminate: see ending.h. Phases of a node: what it holds (WEIGH), the bins
  * (COUNT), and then the best leaf's split (CHOOSE, PARTITION). */
+#include "rlvc/float_rules.h"
+
 #include "ending.h"
 
 #include "../base/assert.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The ring of rows: see experience.h. */
+#include "rlvc/float_rules.h"
+
 #include "experience.h"
 
 #include "../base/assert.h"

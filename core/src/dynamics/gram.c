@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Gram matrices and ridge regression: see gram.h. */
+#include "rlvc/float_rules.h"
+
 #include "gram.h"
 
 #include "../base/float_math.h"

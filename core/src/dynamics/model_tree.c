@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Model trees: see model_tree.h. */
+#include "rlvc/float_rules.h"
+
 #include "model_tree.h"
 
 #include <string.h>

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Drawing the rows to fit to: see sample.h. */
+#include "rlvc/float_rules.h"
+
 #include "sample.h"
 
 #include <string.h>

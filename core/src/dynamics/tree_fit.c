@@ -4,6 +4,8 @@
  * Phases of a node: its Gram matrix and linear model (LINEAR, SOLVE), what that leaves (SQUARES),
  * then for each test the quartiles (CUTS), the quarters' Gram matrices (BUCKETS) and the gains
  * (GAIN). Then the best leaf is split (CHOOSE, PARTITION), and its two children are new nodes. */
+#include "rlvc/float_rules.h"
+
 #include "tree_fit.h"
 
 #include "gram.h"

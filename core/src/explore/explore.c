@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Directed exploration: see explore.h. */
+#include "rlvc/float_rules.h"
+
 #include "explore.h"
 
 #define ENOUGH 8u

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How near a class is to what was little tried: see novelty.h. */
+#include "rlvc/float_rules.h"
+
 #include "novelty.h"
 
 #include "../solve/model.h"

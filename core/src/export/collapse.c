@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The compact tree of a policy: see collapse.h. */
+#include "rlvc/float_rules.h"
+
 #include "collapse.h"
 
 /* The node that follows the subtree of `node` in pre-order; 0 after the last. */

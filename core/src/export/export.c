@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The policy as a C header: see rlvc/export.h. Here is what is of the domain of bits, and the
  * public function; what is of the other domains has files of its own. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/export.h"
 
 #include "rlvc/bits.h"
@@ -47,7 +49,7 @@ static void look_over(exporter *e) {
 /* ------------------------------------------------------------ a table of the action by the bits */
 
 static int table_is_small(const exporter *e) {
-    return e->used <= TABLE_BITS_MAX && (1u << e->used) <= 16u * (e->c.mixed + 1u);
+    return e->used <= TABLE_BITS_MAX && (UINT32_C(1) << e->used) <= 16u * (e->c.mixed + 1u);
 }
 
 /* The action where the used bits have the values that `index` is made of. */
@@ -74,9 +76,9 @@ static uint32_t neighbours(const exporter *e, uint32_t at) {
 static void put_table(exporter *e) {
     rlvc_compact_string(&e->c, "static const unsigned char ");
     rlvc_compact_string(&e->c, e->c.name);
-    rlvc_compact_number(&e->c, "_action[", 1u << e->used);
+    rlvc_compact_number(&e->c, "_action[", UINT32_C(1) << e->used);
     rlvc_compact_string(&e->c, "] = {");
-    for (uint32_t index = 0; index < 1u << e->used; index++)
+    for (uint32_t index = 0; index < UINT32_C(1) << e->used; index++)
         rlvc_compact_number(&e->c,
                             index % 24u ? ", "
                             : index     ? ",\n    "
@@ -148,7 +150,7 @@ static uint32_t put_bits(exporter *e, uint32_t bits) {
     look_over(e);
     if (table_is_small(e)) {
         put_table(e);
-        return 1u << e->used;
+        return UINT32_C(1) << e->used;
     }
     const int bytes = rlvc_compact_fits_bytes(&e->c) && bits <= 256u;
     put_nodes(e, bytes);

@@ -5,6 +5,8 @@
  * pre-order, and is numbered by the order of these. The detector that is written is the text of
  * domains/descriptors.c with the number of dimensions put in, so that the same numbers are added in
  * the same order. */
+#include "rlvc/float_rules.h"
+
 #include "export_descriptors.h"
 
 #include <string.h>

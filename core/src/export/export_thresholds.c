@@ -4,6 +4,8 @@
  * Each node has its component, its children and its cutpoint. If any test is oblique each also has
  * a slope and another component; a slope of 0 adds 0 to a component and so leaves its value as it
  * is. */
+#include "rlvc/float_rules.h"
+
 #include "export_thresholds.h"
 
 #define A_LINE 6u /* numbers */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree as text, DOT and JSON (section 4.3): one walk in pre-order, without recursion. */
+#include "rlvc/float_rules.h"
+
 #include "print.h"
 
 #include "../agent/state.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Strings and numbers as text: see text.h. */
+#include "rlvc/float_rules.h"
+
 #include "text.h"
 
 #include "../base/float_math.h"

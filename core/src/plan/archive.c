@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The policies that were tried: see archive.h. */
+#include "rlvc/float_rules.h"
+
 #include "archive.h"
 
 #include "../base/float_math.h"

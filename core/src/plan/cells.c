@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What is new: see cells.h. */
+#include "rlvc/float_rules.h"
+
 #include "cells.h"
 
 static uint32_t cell_of(const rlvc_dynamics *dynamics, const float *percept, uint32_t i) {

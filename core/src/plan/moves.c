@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The moves of the search: see moves.h. */
+#include "rlvc/float_rules.h"
+
 #include "moves.h"
 
 #include "../base/float_math.h"

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The planner: see rlvc/planner.h. Acting and observing are here; what is learnt is in planning.c.
  */
+#include "rlvc/float_rules.h"
+
 #include "planner_state.h"
 
 #include "cells.h"

@@ -5,6 +5,8 @@
  * (PROMISE), and then it is decided (DECIDE): explore (CELLS, EXPLORE), search (SEARCH, and now and
  * then from nothing), or try again what is known. What a search found is promised for (CANDIDATE)
  * and tried if that beats the best score. */
+#include "rlvc/float_rules.h"
+
 #include "planner_state.h"
 
 #include "cells.h"

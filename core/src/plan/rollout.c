@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Rollouts in the model: see rollout.h. */
+#include "rlvc/float_rules.h"
+
 #include "rollout.h"
 
 #include "cells.h"

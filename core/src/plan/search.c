@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The search for a small tree: see search.h. */
+#include "rlvc/float_rules.h"
+
 #include "search.h"
 
 #include <string.h>

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Small trees: see small_tree.h. */
+#include "rlvc/float_rules.h"
+
 #include "small_tree.h"
 
 #include "../base/assert.h"

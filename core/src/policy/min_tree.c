@@ -23,6 +23,8 @@
  *
  * grow() then puts the tree down from its root, as the table says; where that or the effort did not
  * suffice, by the feature that purifies best. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/min_tree.h"
 
 #include "../base/arena.h"

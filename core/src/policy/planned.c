@@ -3,6 +3,8 @@
  *
  * A small tree has the layout of a tree of classes already: test j's children are nodes 2j + 1 and
  * 2j + 2, and the leaf that it splits is the one that the parent of the tested node had. */
+#include "rlvc/float_rules.h"
+
 #include "policy.h"
 
 #include "../base/assert.h"

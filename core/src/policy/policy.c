@@ -9,6 +9,8 @@
  * each row, allowed     the ring's distinct percepts, by these features scratch          first an
  * index of the rows, to find duplicates; then the block of rlvc_min_tree, with its tree; or else
  * the leaf that each node of the agent's tree begins in the collapsed one */
+#include "rlvc/float_rules.h"
+
 #include "policy.h"
 
 #include "rlvc/min_tree.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Grouping samples by class and action: see grouping.h. */
+#include "rlvc/float_rules.h"
+
 #include "grouping.h"
 
 enum { ZERO, COUNT, SUM, FILL, SHIFT, DONE };

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The ring of interactions: see replay.h for its invariants. */
+#include "rlvc/float_rules.h"
+
 #include "replay.h"
 
 #include "../base/assert.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Truncated discounted returns: see returns.h. */
+#include "rlvc/float_rules.h"
+
 #include "returns.h"
 
 void rlvc_return_begin(rlvc_return_cursor *window, uint32_t position) {

@@ -22,6 +22,8 @@
  * there are at most as many as samples; a round fills at least half of what was unfilled (what it
  * does not meet at its visit has been filled in that same round); and unlike in a walk along the
  * cycles of the permutation the next exchange need not wait for the last. */
+#include "rlvc/float_rules.h"
+
 #include "sort.h"
 
 #include "../base/assert.h"

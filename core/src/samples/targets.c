@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The two criteria: see targets.h. */
+#include "rlvc/float_rules.h"
+
 #include "targets.h"
 
 #include "../base/float_math.h"

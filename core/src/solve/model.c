@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The sparse class-level model: see model.h. */
+#include "rlvc/float_rules.h"
+
 #include "model.h"
 
 enum { GROUP, OPEN, REWARD, SORT, COUNT, DONE };

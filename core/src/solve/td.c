@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Q-learning and Sarsa: see td.h. */
+#include "rlvc/float_rules.h"
+
 #include "td.h"
 
 static void add(rlvc_td_updates *updates, uint32_t class_id, uint32_t action, float target) {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Value iteration and policy iteration: see value_iteration.h. */
+#include "rlvc/float_rules.h"
+
 #include "value_iteration.h"
 
 #include "model.h"

@@ -35,6 +35,8 @@
  *      or, by ranks, RANK in place of all but the first: each word goes into the sums of
  * rank_sum.h. Each action costs at most ACTION_MAX units and is only begun if so much is left; none
  * depends on how much is left, which is why the slicing changes nothing. */
+#include "rlvc/float_rules.h"
+
 #include "cutpoint.h"
 
 #include "../base/assert.h"
@@ -243,7 +245,7 @@ static uint32_t chunk_step(rlvc_cutpoint_cursor *scan) {
 }
 
 static uint32_t block_step(rlvc_cutpoint_cursor *scan) {
-    uint32_t size = 1u << scan->level;
+    uint32_t size = UINT32_C(1) << scan->level;
     uint32_t end = smaller(words_of(scan), scan->word + size);
     uint32_t words = end - scan->word;
     uint32_t present = rlvc_popcount(scan->column + scan->word, words);

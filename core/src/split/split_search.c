@@ -6,6 +6,8 @@
  * (SCAN); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
  * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the
  * winners get their p-values (TEST_PER_ACTION, TEST_POOLED). */
+#include "rlvc/float_rules.h"
+
 #include "split_search.h"
 
 #include "../base/float_math.h"

@@ -4,6 +4,8 @@
  * Phases: the candidates are asked for (PROPOSE), and the column of each f is made (NOW). Then, for
  * each g, its column over the successors (NEXT), in the place of the cutpoints, and, for each f and
  * each action, a table (COUNT, TABLE). The winner gets its p-value (TEST). */
+#include "rlvc/float_rules.h"
+
 #include "successor_search.h"
 
 #include "../base/popcount.h"

@@ -20,6 +20,8 @@
  * are positive: nothing cancels. exp(-x/2) and t(k) leave the range of a float long before their
  * product does, so each is kept as m * 2^e; and ln p is put together from their logarithms where p
  * is too small. The work is bounded by the degrees of freedom alone. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/chi2.h"
 
 #include <float.h>

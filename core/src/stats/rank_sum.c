@@ -2,6 +2,8 @@
 /* The rank-sum test: see rank_sum.h. The sums are exact integers; floats only put the statistic
  * together. So columns that differ by exchanged samples of one cluster, or that are each other's
  * complement, have the same statistic to the last bit. */
+#include "rlvc/float_rules.h"
+
 #include "rank_sum.h"
 
 #include "../base/assert.h"

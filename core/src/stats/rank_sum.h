@@ -31,7 +31,7 @@
 
 #include <stdint.h>
 
-#define RLVC_RANK_SUM_MAX (1u << 21) /* samples: their number cubed fits into 64 bits */
+#define RLVC_RANK_SUM_MAX (UINT32_C(1) << 21) /* samples: their number cubed fits into 64 bits */
 
 /* All 0 at the beginning of a column. Of the clusters before the present one: */
 typedef struct rlvc_rank_sum {

@@ -12,6 +12,8 @@
  *
  * whose second term is at most |s| / 3 of the first. The cells are added as (a + d) + (b + c): an
  * exchange of rows or columns only exchanges operands of a sum, which changes no bit. */
+#include "rlvc/float_rules.h"
+
 #include "score.h"
 
 #include "../base/assert.h"

@@ -19,6 +19,8 @@
  * has a + 1, b - 1, c - 1, d + 1, and is b c / ((a + 1)(d + 1)) times as probable. The p-value is
  * twice their sum. As the least expected count is bounded, so is the work: a sum of some dozens of
  * terms. */
+#include "rlvc/float_rules.h"
+
 #include "table_test.h"
 
 #include "../base/float_math.h"

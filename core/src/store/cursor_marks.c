@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Marks of cursors, and the way back to them: see cursor_marks.h. */
+#include "rlvc/float_rules.h"
+
 #include "cursor_marks.h"
 
 #include "../agent/learn.h"

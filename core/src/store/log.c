@@ -15,6 +15,8 @@
  *
  * The buffer is a ring, for a byte that is skipped to cost nothing to move. A record that was found
  * across the ring's end is straightened, at most once for as many bytes as the buffer holds. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/log.h"
 
 #include "../base/bytes.h"
@@ -26,7 +28,7 @@
 #define CRC_BYTES 4u
 #define HEADER_BYTES 8u      /* version, actions, percept_bytes */
 #define INTERACTION_BYTES 5u /* action, reward */
-#define PERCEPT_BYTES_MAX (1u << 20)
+#define PERCEPT_BYTES_MAX (UINT32_C(1) << 20)
 
 /* The byte of kind: RLVC_LOG_*, and of an interaction also */
 #define KIND_MASK 3u

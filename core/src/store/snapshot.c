@@ -4,6 +4,8 @@
  * Each part is one function that passes its fields through a stream, whichever way that goes. Where
  * what is loaded decides how much there is to come, it is checked at once; the rest is checked at
  * the end. */
+#include "rlvc/float_rules.h"
+
 #include "rlvc/snapshot.h"
 
 #include "../agent/config.h"

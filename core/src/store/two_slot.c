@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Two slots, and streams of bytes into and out of them: see two_slot.h. */
+#include "rlvc/float_rules.h"
+
 #include "two_slot.h"
 
 #include "../base/bytes.h"

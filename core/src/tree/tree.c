@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The decision tree: see tree.h for its layout. */
+#include "rlvc/float_rules.h"
+
 #include "tree.h"
 
 #include "../base/assert.h"

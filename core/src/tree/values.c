@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Tables by class and action: see values.h. */
+#include "rlvc/float_rules.h"
+
 #include "values.h"
 
 void rlvc_values_carve(rlvc_values *values, rlvc_arena *arena, const rlvc_config *config) {
