@@ -291,6 +291,8 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_shim_python, detect)},
     {FIELD(rlvc_shim_python, oracle)},
     {FIELD(rlvc_shim_python, name)},
+    {FIELD(rlvc_shim_python, check_percept)},
+    {FIELD(rlvc_shim_python, check_feature)},
     {FIELD(rlvc_shim_python, type)},
     {FIELD(rlvc_shim_python, value)},
     {FIELD(rlvc_shim_python, traceback)},

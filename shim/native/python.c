@@ -116,6 +116,24 @@ static int name(void *ctx, const void *feature, char *text, uint32_t room) {
     return leave(methods, state, result, &ignored);
 }
 
+/* Refuses the record also after an exception. */
+static int check(rlvc_shim_python *methods, void *method, const void *record) {
+    int state = enter(methods);
+    void *result = python.call(method, "(K)", address(record));
+    uint32_t sound;
+    return leave(methods, state, result, &sound) || !sound;
+}
+
+static int check_percept(void *ctx, const void *percept) {
+    rlvc_shim_python *methods = (rlvc_shim_python *)ctx;
+    return check(methods, methods->check_percept, percept);
+}
+
+static int check_feature(void *ctx, const void *feature) {
+    rlvc_shim_python *methods = (rlvc_shim_python *)ctx;
+    return check(methods, methods->check_feature, feature);
+}
+
 void rlvc_shim_python_domain(rlvc_shim_python *methods, rlvc_domain *domain) {
     domain->ctx = methods;
     domain->exhibits = exhibits;
@@ -123,6 +141,6 @@ void rlvc_shim_python_domain(rlvc_shim_python *methods, rlvc_domain *domain) {
     domain->detect = methods->detect ? detect : NULL;
     domain->oracle = methods->oracle ? oracle : NULL;
     domain->name = name;
-    domain->check_percept = NULL; /* percepts come from pack(), features from candidates() */
-    domain->check_feature = NULL;
+    domain->check_percept = methods->check_percept ? check_percept : NULL;
+    domain->check_feature = methods->check_feature ? check_feature : NULL;
 }

@@ -117,11 +117,11 @@ RLVC_API void rlvc_shim_memory_store(rlvc_shim_memory *memory, uint32_t slot_byt
                                      rlvc_store *store);
 
 /* The methods of a domain in Python, and the exception that one raised. A method gets addresses as
- * numbers, and returns a number: exhibits 0 or 1, candidates how many it wrote, oracle how many it
- * considered, the others 0. */
+ * numbers, and returns a number: exhibits and the checks 0 or 1, candidates how many it wrote,
+ * oracle how many it considered, the others 0. */
 typedef struct rlvc_shim_python {
-    void *exhibits, *candidates, *detect, *oracle,
-        *name;                      /* Python objects; may be null: detect, oracle */
+    /* Python objects; may be null: detect, oracle and the checks */
+    void *exhibits, *candidates, *detect, *oracle, *name, *check_percept, *check_feature;
     void *type, *value, *traceback; /* of the exception; null: there is none */
     uint32_t depth;                 /* how many methods are running */
     uint32_t reserved;

@@ -4,14 +4,17 @@
 A new file is written without a name if the system supports that, else under a random name. When all
 of it is on the disk, it is renamed to its final name, which replaces the old file in one step. The
 writer holds a lock on the new file. If the writer is killed, the lock is released: the next process
-that saves or loads an agent removes the incomplete file.
+that saves or loads an agent removes what it left, if anything. It can only leave something between
+two system calls, and only where a file is replaced.
+
+Where a system has no locks on files and no names relative to a folder (Windows), the new file has a
+random name from the start, and a killed writer leaves it behind.
 """
 
 from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import os
 import secrets
 import stat
@@ -21,6 +24,11 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from .errors import StoreError
+
+try:
+    import fcntl
+except ImportError:  # not a POSIX system
+    fcntl = None  # type: ignore[assignment]
 
 _KINDS: tuple[tuple[Callable[[int], bool], str], ...] = (
     (stat.S_ISDIR, "a folder"),
@@ -66,7 +74,7 @@ def open_file(path: str | Path) -> BinaryIO:
     """
     name = _name(path)
     _need_file(os.stat(name).st_mode)  # opening a device may have effects
-    file: BinaryIO = _opened(name, os.O_RDONLY | os.O_NONBLOCK)
+    file: BinaryIO = _opened(name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
     _need_file(os.fstat(file.fileno()).st_mode)
     return file
 
@@ -99,7 +107,10 @@ def replace(path: str | Path, content: bytes) -> None:
         file is still there.
     """
     try:
-        _replace(path, content)
+        if fcntl is None:
+            _replace_by_name(_name(path), content)
+        else:
+            _replace(path, content)
     except OSError as error:
         raise StoreError(f"{path}: cannot be written: {error.strerror}") from error
 
@@ -123,10 +134,7 @@ def _replace(path: str | Path, content: bytes) -> None:
                 if mode is not None:
                     os.fchmod(file.fileno(), stat.S_IMODE(mode))
                 os.fsync(file.fileno())
-                if os.fstat(file.fileno()).st_nlink == 0:
-                    here = f"{_FDS}/{file.fileno()}"
-                    os.link(here, temporary, dst_dir_fd=folder, follow_symlinks=True)
-                os.rename(temporary, name, src_dir_fd=folder, dst_dir_fd=folder)
+                _give_name(file, folder, temporary, name, new=mode is None)
         except BaseException:
             with contextlib.suppress(FileNotFoundError):
                 os.unlink(temporary, dir_fd=folder)
@@ -136,8 +144,46 @@ def _replace(path: str | Path, content: bytes) -> None:
         os.close(folder)
 
 
+def _give_name(file: BinaryIO, folder: int, temporary: str, name: str, new: bool) -> None:
+    """Give a file that is written its final name: at once if no file has it yet."""
+    if os.fstat(file.fileno()).st_nlink == 0:
+        here = f"{_FDS}/{file.fileno()}"
+        if new:
+            with contextlib.suppress(FileExistsError):  # another process was first
+                os.link(here, name, dst_dir_fd=folder, follow_symlinks=True)
+                return
+        os.link(here, temporary, dst_dir_fd=folder, follow_symlinks=True)
+    os.rename(temporary, name, src_dir_fd=folder, dst_dir_fd=folder)
+
+
+def _replace_by_name(name: str, content: bytes) -> None:
+    """Write a file where the system has neither locks nor folders by number."""
+    mode = None
+    with contextlib.suppress(FileNotFoundError):
+        mode = os.stat(name, follow_symlinks=False).st_mode
+        _need_file(mode)
+        if not os.access(name, os.W_OK):
+            raise PermissionError(errno.EACCES, "it is write-protected")
+    where, last = os.path.split(name)
+    temporary = os.path.join(where, _beginning(last) + secrets.token_hex(8))
+    try:
+        with open(temporary, "xb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        if mode is not None:
+            os.chmod(temporary, stat.S_IMODE(mode))
+        os.replace(temporary, name)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
+        raise
+
+
 def tidy(path: str | Path) -> None:
     """Remove what processes that were killed while they wrote a file left behind beside it."""
+    if fcntl is None:
+        return
     with contextlib.suppress(OSError):
         where, name = os.path.split(_name(path))
         folder = os.open(where or ".", os.O_RDONLY | os.O_DIRECTORY)

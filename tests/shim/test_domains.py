@@ -192,3 +192,71 @@ def test_the_action_of_a_split():
     assert {split.action for split in splits} <= {None, 0, 1}
     assert splits
     assert all(split.successors and split.action is None for split in splits)
+
+
+class Checked(Corridor):
+    """Vouches for percepts and features below 8; fails on demand."""
+
+    def __init__(self):
+        super().__init__()
+        self.answer = None  # instead of the truth
+
+    def check_percept(self, percept):
+        return self.said(bool(percept[0] < 8))
+
+    def check_feature(self, feature):
+        return self.said(bool(feature < 8))
+
+    def said(self, truth):
+        if isinstance(self.answer, Exception):
+            raise self.answer
+        return truth if self.answer is None else self.answer
+
+
+def test_a_domain_refuses_percepts():
+    agent = rlvc.Agent(Checked(), 2)
+    agent.begin(bytes([7]))
+    for call in (
+        lambda: agent.begin(bytes([8])),
+        lambda: agent.observe(0, 0.0, bytes([200])),
+        lambda: agent.observe_many(
+            np.zeros((1, 1), np.uint8), np.zeros(1, rlvc.CHOICE), np.zeros(1, np.float32),
+            np.full((1, 1), 9, np.uint8), np.zeros(1, np.uint8)),
+    ):  # fmt: skip
+        with pytest.raises(errors.PerceptError):
+            call()
+    agent.observe(0, 0.0, bytes([3]))
+    assert agent.statistics.interactions == 1
+
+
+@pytest.mark.parametrize("answer", [1, None, "yes", np.array([True, False])], ids=repr)
+def test_a_check_that_returns_something_else(answer):
+    domain = Checked()
+    domain.said = lambda truth: answer
+    with pytest.raises(errors.DomainError, match=r"check_percept\(\) returned"):
+        rlvc.Agent(domain, 2).begin(bytes(1))
+
+
+def test_a_check_that_raises():
+    domain = Checked()
+    domain.answer = KeyError("mine")
+    with pytest.raises(KeyError, match="mine"):
+        rlvc.Agent(domain, 2).begin(bytes(1))
+
+
+def test_forged_records_of_a_domain_of_ones_own(walk):
+    """What a snapshot says of percepts and features is checked, and what a check raises comes out."""
+    domain = Checked()
+    agent = walk(domain)
+    agent.learn()
+    assert agent.statistics.classes > 1
+    snapshot = agent.snapshot()
+    assert rlvc.Agent.restore(domain, agent.config, snapshot).snapshot() == snapshot
+    for answer in (False, np.False_):
+        domain.answer = answer
+        with pytest.raises(errors.SnapshotError):
+            rlvc.Agent.restore(domain, agent.config, snapshot)
+    domain.answer = KeyError("mine")
+    for call in (lambda: rlvc.Agent.restore(domain, agent.config, snapshot), agent.check):
+        with pytest.raises(KeyError, match="mine"):
+            call()

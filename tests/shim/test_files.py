@@ -13,6 +13,8 @@ import random
 import resource
 import signal
 import stat
+import subprocess
+import sys
 import time
 import zlib
 
@@ -251,3 +253,24 @@ def test_two_savers_that_are_killed(agent, tmp_path):
             loads += 2
     assert os.listdir(tmp_path) == ["agent"]
     print(f"{loads} loads")
+
+
+def test_a_system_without_locks(agent, tmp_path, monkeypatch):
+    """Saving still replaces files as a whole, and refuses what is no file."""
+    monkeypatch.setattr(files, "fcntl", None)
+    path = tmp_path / "agent"
+    agent.save(path)
+    path.chmod(0o640)
+    agent.save(path)
+    assert rlvc.Agent.load(path).snapshot() == agent.snapshot()
+    assert path.stat().st_mode & 0o777 == 0o640
+    (tmp_path / "link").symlink_to(path)
+    for wrong in (tmp_path, tmp_path / "link", tmp_path / "none/agent", "/dev/null"):
+        with pytest.raises(errors.StoreError):
+            agent.save(wrong)
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["agent", "link"]
+
+
+def test_the_package_needs_no_locks():
+    program = "import sys; sys.modules['fcntl'] = None; import rlvc; assert rlvc.files.fcntl is None"
+    subprocess.run([sys.executable, "-B", "-c", program], check=True)

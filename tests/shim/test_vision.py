@@ -186,6 +186,18 @@ def test_wrong_metrics(metric, tmp_path):
         vision.Extractor().domain()
 
 
+def test_what_was_never_made(extractor):
+    """Objects of ``__new__`` alone are refused, whatever one does with them."""
+    metric, other = (kind.__new__(kind) for kind in (rlvc.vision.Metric, rlvc.vision.Extractor))
+    for call in (
+        metric.write, lambda: metric.tau, lambda: pickle.dumps(metric),
+        lambda: other.extract(np.zeros((40, 40), np.uint8)),
+        lambda: rlvc.vision.Extractor("sift", metric=metric),
+    ):  # fmt: skip
+        with pytest.raises(errors.Error, match="was not made"):
+            call()
+
+
 @pytest.mark.parametrize(
     "changes",
     [{"share": 1.5}, {"share": "all"}, {"kind": "best"}, {"objects": [1]}, {"objects": [-1, 0]},

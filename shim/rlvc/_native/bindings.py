@@ -513,9 +513,9 @@ class ShimPython(c.Structure):
 
     _fields_ = [
         ("exhibits", c.c_void_p), ("candidates", c.c_void_p), ("detect", c.c_void_p),
-        ("oracle", c.c_void_p), ("name", c.c_void_p), ("type", c.c_void_p),
-        ("value", c.c_void_p), ("traceback", c.c_void_p), ("depth", c.c_uint32),
-        ("reserved", c.c_uint32),
+        ("oracle", c.c_void_p), ("name", c.c_void_p), ("check_percept", c.c_void_p),
+        ("check_feature", c.c_void_p), ("type", c.c_void_p), ("value", c.c_void_p),
+        ("traceback", c.c_void_p), ("depth", c.c_uint32), ("reserved", c.c_uint32),
     ]
 
 

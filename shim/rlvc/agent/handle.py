@@ -53,6 +53,8 @@ _ERRORS: dict[int, type[Error]] = {
     _native.E_MISMATCH: SnapshotError,
     _native.E_PERCEPT: PerceptError,
 }
+# What a method of the domain makes a function return if it raises.
+_FAILED_METHODS = (_native.E_CALLBACK, _native.E_MEMORY, _native.E_DAMAGED, _native.E_PERCEPT)
 _TEXT_ROOM = 1 << 16  # bytes; a longer text is written once more
 _WRITE = ctypes.cast(_native.call.rlvc_shim_text_write, _native.WRITE)
 _byref = ctypes.byref
@@ -131,6 +133,8 @@ class Handle:
             store = MemoryStore(self._snapshot_bytes(), snapshot)
             reference = _byref(store.native)
             status = _native.long_call.rlvc_load(*references, *place, reference, _byref(agent))
+            if status == _native.OK:
+                self._guard.forget()  # a learning step that cannot go on is given up
         self._check(status)
         self._handle = self._address = agent.value
         self._memory_bytes = size.value
@@ -142,7 +146,7 @@ class Handle:
             self._fail(status, index)
 
     def _fail(self, status: int, index: int | None = None) -> None:
-        if status == _native.E_CALLBACK:
+        if status in _FAILED_METHODS:
             self._guard.reraise()
         if status == _native.E_NULL:
             if getattr(self, "_address", 0) is None:

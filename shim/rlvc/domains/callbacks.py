@@ -32,6 +32,10 @@ class Guard:
         """Whether a method is running."""
         return int(self.methods.depth) > 0
 
+    def forget(self) -> None:
+        """Drop what a method raised, if the call that it was raised in went on without it."""
+        _native.call.rlvc_shim_python_forget(ctypes.byref(self.methods))
+
     def reraise(self) -> None:
         """Raise what a method raised, if one did since the last time."""
         _native.call.rlvc_shim_python_raise(ctypes.byref(self.methods))
@@ -61,7 +65,7 @@ class Callbacks:
         native.features_max = domain.features_max
         called = [self.exhibits, self.candidates, self.name]
         methods.exhibits, methods.candidates, methods.name = map(id, called)
-        for name in ("detect", "oracle"):
+        for name in ("detect", "oracle", "check_percept", "check_feature"):
             if getattr(domain, name) is not None:
                 called.append(getattr(self, name))
                 setattr(methods, name, id(called[-1]))
@@ -98,6 +102,22 @@ class Callbacks:
         answer = self.domain.exhibits(one, self.feature(feature))
         if not isinstance(answer, bool | np.bool_):
             raise DomainError(f"exhibits() returned {answer!r:.80}, expected a bool")
+        return int(answer)
+
+    def check_percept(self, percept: int) -> int:
+        """``rlvc_domain.check_percept``: 1 if it is sound."""
+        one = self.percepts(ctypes.string_at(percept, self.percept_bytes), 1)[0]
+        return self.sound("check_percept", one)
+
+    def check_feature(self, feature: int) -> int:
+        """``rlvc_domain.check_feature``: 1 if it is sound."""
+        return self.sound("check_feature", self.feature(feature))
+
+    def sound(self, method: str, record: Any) -> int:
+        """Ask a check of the domain."""
+        answer = getattr(self.domain, method)(record)
+        if not isinstance(answer, bool | np.bool_):
+            raise DomainError(f"{method}() returned {answer!r:.80}, expected a bool")
         return int(answer)
 
     def name(self, feature: int, text: int, room: int) -> int:

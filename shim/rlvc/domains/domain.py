@@ -39,7 +39,7 @@ class Domain(abc.ABC):
     -----
     The methods must not use the agent that calls them, and must return the same result for the same
     arguments. If one raises, the agent's method that called it raises the same exception. What they
-    and ``pack`` return is checked. Types and sizes cannot be changed later. Two more methods are
+    and ``pack`` return is checked. Types and sizes cannot be changed later. Four more methods are
     optional:
 
     - ``detect(percepts, features)`` replaces calls of ``exhibits``. It takes percepts
@@ -48,12 +48,18 @@ class Domain(abc.ABC):
       [n, *percept_shape], sorted by ascending target, and returns the feature that best explains
       the partition into percepts[:below] and percepts[below:], and the number of features it
       compared; or None if no feature does.
+    - ``check_percept(percept)`` and ``check_feature(feature)`` return whether the values of a
+      percept, and of a feature of a tree, are valid. Percepts are checked where an agent gets them,
+      and both where a snapshot is loaded: its bytes may come from anywhere. Without these methods
+      the others must be right for any values.
 
     Source: ``core/include/rlvc/domain.h``.
     """
 
     detect: Callable[[Any, Any], Any] | None = None
     oracle: Callable[[Any, int], Any] | None = None
+    check_percept: Callable[[Any], bool] | None = None
+    check_feature: Callable[[Any], bool] | None = None
 
     def __init__(
         self,

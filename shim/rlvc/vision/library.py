@@ -96,6 +96,12 @@ class Owned:
         self._handle: int | None = made.value
         self._free: Callable[[int | None], None] = getattr(library, free)
 
+    def __getattr__(self, name: str) -> Any:
+        """Say what is wrong with an object that ``__new__`` alone has made."""
+        if "_free" in self.__dict__ or name.startswith("__"):
+            raise AttributeError(f"{type(self).__name__} has no attribute {name}")
+        raise Error(f"the {type(self).__name__} was not made by one of its constructors")
+
     def __del__(self) -> None:
-        if hasattr(self, "_free"):
+        if "_free" in self.__dict__:
             self._free(self._handle)
