@@ -520,6 +520,8 @@ rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *
         return RLVC_E_NULL;
     if (!is_valid(descriptors))
         return RLVC_E_RANGE;
+    const uint32_t numbers = /* of 4 bytes, in a vector */
+        descriptors->form == RLVC_DESCRIPTORS_FLOAT ? descriptors->dimensions : 0;
     const rlvc_domain made = {
         .ctx = descriptors,
         .percept_bytes = RLVC_DESCRIPTORS_PERCEPT_BYTES(descriptors->points,
@@ -533,6 +535,8 @@ rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *
         .name = name,
         .check_percept = check_percept,
         .check_feature = check_feature,
+        .percept_words = 1u + numbers * descriptors->points,
+        .feature_words = 1u + numbers,
     };
     *domain = made;
     return RLVC_OK;

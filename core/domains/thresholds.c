@@ -317,6 +317,9 @@ rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *dom
         .name = name,
         .check_percept = check_percept,
         .check_feature = check_feature,
+        .percept_words = thresholds->components,
+        .feature_words = 2u,  /* cutpoint, slope */
+        .feature_halves = 2u, /* component, other */
     };
     *domain = made;
     return RLVC_OK;

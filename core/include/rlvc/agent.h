@@ -22,8 +22,8 @@ extern "C" {
 
 typedef struct rlvc_agent rlvc_agent;
 
-/* What a block must be aligned to, as every array of uint64_t is: to 8, or to what its target aligns
- * to at most (an AVR: to 1). */
+/* What a block must be aligned to, as every array of uint64_t is: to 8, or to what its target
+ * aligns to at most (an AVR: to 1). */
 #if defined(__BIGGEST_ALIGNMENT__) && __BIGGEST_ALIGNMENT__ < 8
 #define RLVC_ALIGNMENT ((unsigned)__BIGGEST_ALIGNMENT__)
 #else

@@ -98,6 +98,14 @@ typedef struct rlvc_domain {
      * loaded (rlvc_load) and by rlvc_agent_check. */
     int (*check_percept)(void *ctx, const void *percept);
     int (*check_feature)(void *ctx, const void *feature);
+
+    /* Of what a record is made, for snapshots and logs that are the same bytes on every target: it
+     * begins with so many numbers of 4 bytes (float, uint32_t), in a feature then so many of 2
+     * bytes, which are stored lowest byte first. The rest are bytes, stored as they are. Numbers
+     * beyond the record's end do not count. All 0: a record of bytes. */
+    uint32_t percept_words;
+    uint32_t feature_words;
+    uint32_t feature_halves;
 } rlvc_domain;
 
 #define RLVC_NAME_BYTES 64u /* the room that name() gets */

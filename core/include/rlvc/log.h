@@ -24,11 +24,14 @@ extern "C" {
 /* ------------------------------------------------------------------ writing */
 
 typedef struct rlvc_log_writer {
-    /* Appends. Returns 0, or anything else to fail. Called up to three times a record. */
+    /* Appends. Returns 0, or anything else to fail. Called up to three times a record, and once
+     * more for each 64 bytes of numbers in it. */
     int (*write)(void *ctx, const void *bytes, uint32_t count);
     void *ctx;
     uint32_t percept_bytes;
-    uint16_t sequence; /* of the next record */
+    uint32_t percept_words; /* as of the domain, for you to set when the log is open; 0 after
+                               rlvc_log_open: percepts are logged as they lie in memory */
+    uint16_t sequence;      /* of the next record */
     uint8_t actions;
 } rlvc_log_writer;
 
@@ -88,6 +91,7 @@ typedef struct rlvc_log_reader {
     unsigned char *buffer;
     uint32_t room;
     uint32_t percept_bytes; /* 0 until it is known */
+    uint32_t percept_words; /* as of the domain, for you to set; 0 after rlvc_log_read */
     uint32_t actions;
     uint32_t from; /* the buffer, a ring, holds from here on */
     uint32_t held; /* so many bytes that are not used yet */

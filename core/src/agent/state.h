@@ -38,11 +38,11 @@ typedef struct rlvc_learner {
     uint8_t failed;    /* the last call of rlvc_learn did */
 } rlvc_learner;
 
-struct rlvc_agent {
+struct rlvc_agent { /* first what is used most: Thumb's short instructions reach 128 bytes */
     rlvc_config config;
+    rlvc_tree tree;
     rlvc_domain domain;
     rlvc_replay replay;
-    rlvc_tree tree;
     rlvc_values values;
     rlvc_explorer explorer;
     rlvc_workspace space;

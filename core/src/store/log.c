@@ -28,6 +28,7 @@
 #define CRC_BYTES 4u
 #define HEADER_BYTES 8u      /* version, actions, percept_bytes */
 #define INTERACTION_BYTES 5u /* action, reward */
+#define CHUNK_BYTES 64u      /* of numbers, which are turned into bytes on their way */
 #define PERCEPT_BYTES_MAX (UINT32_C(1) << 20)
 
 /* The byte of kind: RLVC_LOG_*, and of an interaction also */
@@ -46,6 +47,34 @@ static int reward_is_sound(float reward) {
 
 /* ------------------------------------------------------------------ writing */
 
+/* How many bytes of a percept are numbers. */
+static uint32_t bytes_of_numbers(uint32_t percept_bytes, uint32_t words) {
+    return words < percept_bytes / 4u ? 4u * words : percept_bytes / 4u * 4u;
+}
+
+/* Writes a percept, and takes it into a CRC. */
+static int put_percept(const rlvc_log_writer *writer, const void *percept, uint32_t *crc) {
+    const unsigned char *byte = (const unsigned char *)percept;
+    unsigned char chunk[CHUNK_BYTES];
+    uint32_t left = bytes_of_numbers(writer->percept_bytes, writer->percept_words);
+    const uint32_t rest = writer->percept_bytes - left;
+    while (left > 0) {
+        const uint32_t count = left < CHUNK_BYTES ? left : CHUNK_BYTES;
+        for (uint32_t i = 0; i < count; i += 4u) {
+            uint32_t word;
+            memcpy(&word, byte + i, sizeof word);
+            rlvc_put(chunk + i, word, 4);
+        }
+        *crc = rlvc_crc(*crc, chunk, count);
+        if (writer->write(writer->ctx, chunk, count) != 0)
+            return -1;
+        byte += count;
+        left -= count;
+    }
+    *crc = rlvc_crc(*crc, byte, rest);
+    return rest > 0 ? writer->write(writer->ctx, byte, rest) : 0;
+}
+
 /* Writes a record: its head and `count` bytes of content at `bytes` (with HEAD_BYTES free before
  * them), then a percept, if any. The sequence number goes on also if that fails, for a reader to
  * see it. */
@@ -58,13 +87,11 @@ static rlvc_status put(rlvc_log_writer *writer, uint32_t kind, unsigned char *re
     rlvc_put(record + 2, writer->sequence, 2);
     writer->sequence = (uint16_t)(writer->sequence + 1u);
     uint32_t crc = rlvc_crc(0, record, head);
-    if (percept)
-        crc = rlvc_crc(crc, percept, writer->percept_bytes);
-    rlvc_put(end, crc, CRC_BYTES);
     if (writer->write(writer->ctx, record, head) != 0)
         return RLVC_E_CALLBACK;
-    if (percept && writer->write(writer->ctx, percept, writer->percept_bytes) != 0)
+    if (percept && put_percept(writer, percept, &crc) != 0)
         return RLVC_E_CALLBACK;
+    rlvc_put(end, crc, CRC_BYTES);
     return writer->write(writer->ctx, end, CRC_BYTES) == 0 ? RLVC_OK : RLVC_E_CALLBACK;
 }
 
@@ -78,6 +105,7 @@ rlvc_status rlvc_log_open(rlvc_log_writer *writer, uint32_t percept_bytes, uint3
     writer->write = write;
     writer->ctx = ctx;
     writer->percept_bytes = percept_bytes;
+    writer->percept_words = 0;
     writer->sequence = 0;
     writer->actions = (uint8_t)actions;
     rlvc_put(record + HEAD_BYTES, RLVC_LOG_VERSION, 2);
@@ -274,7 +302,7 @@ static void reverse(unsigned char *byte, uint32_t count) {
 
 /* The record that is held from the first unused byte on, in one piece: if it goes across the ring's
  * end, the ring is turned for it to begin where the buffer does. */
-static const unsigned char *in_one_piece(rlvc_log_reader *reader, uint32_t length) {
+static unsigned char *in_one_piece(rlvc_log_reader *reader, uint32_t length) {
     if (length > reader->room - reader->from) {
         reverse(reader->buffer, reader->from);
         reverse(reader->buffer + reader->from, reader->room - reader->from);
@@ -282,6 +310,16 @@ static const unsigned char *in_one_piece(rlvc_log_reader *reader, uint32_t lengt
         reader->from = 0;
     }
     return reader->buffer + reader->from;
+}
+
+/* Makes numbers of a record's bytes, as this target keeps them. */
+static void take_numbers(const rlvc_log_reader *reader, unsigned char *at, uint32_t length) {
+    const uint32_t count = bytes_of_numbers(reader->percept_bytes, reader->percept_words);
+    unsigned char *percept = at + length - CRC_BYTES - reader->percept_bytes;
+    for (uint32_t i = 0; i < count; i += 4u) {
+        const uint32_t word = (uint32_t)rlvc_get(percept + i, 4);
+        memcpy(percept + i, &word, sizeof word);
+    }
 }
 
 /* Takes a header's word for what is to come, if it is what was expected. */
@@ -370,10 +408,14 @@ rlvc_status rlvc_log_next(rlvc_log_reader *reader, rlvc_log_record *record) {
         reader->torn = length == 0 && reader->skipping;
         if (length == 0)
             return RLVC_OK;
-        const unsigned char *at = in_one_piece(reader, length);
+        unsigned char *at = in_one_piece(reader, length);
         reader->skipping = 0;
         advance(reader, length);
         status = take(reader, at, record);
+        if (record->percept) {
+            catch_up(reader); /* no CRC is taken of these bytes later */
+            take_numbers(reader, at, length);
+        }
         if (status != RLVC_OK || record->kind != RLVC_LOG_END)
             return status;
     }

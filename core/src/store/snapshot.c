@@ -76,15 +76,15 @@ static void pass_counters(rlvc_stream *s, rlvc_agent *agent) {
 }
 
 /* A slot without an interaction holds what was there before it: that is passed as zeros. */
-static void pass_slot(rlvc_stream *s, rlvc_replay *replay, uint32_t slot) {
+static void pass_slot(rlvc_stream *s, rlvc_replay *replay, uint32_t words, uint32_t slot) {
     float reward = 0.0f;
     uint8_t action = 0;
     if (s->mode != RLVC_STREAM_LOAD && (replay->flags[slot] & RLVC_SLOT_STORED)) {
         reward = replay->reward[slot];
         action = replay->action[slot];
     }
-    rlvc_stream_bytes(s, replay->percept + (size_t)slot * replay->percept_bytes,
-                      replay->percept_bytes);
+    rlvc_stream_record(s, replay->percept + (size_t)slot * replay->percept_bytes,
+                       replay->percept_bytes, words, 0);
     rlvc_stream_float(s, &reward);
     rlvc_stream_u16(s, &replay->label[slot]);
     rlvc_stream_u8(s, &action);
@@ -96,7 +96,8 @@ static void pass_slot(rlvc_stream *s, rlvc_replay *replay, uint32_t slot) {
 }
 
 /* @return 0 if what was loaded does not fit. */
-static int pass_replay(rlvc_stream *s, rlvc_replay *replay) {
+static int pass_replay(rlvc_stream *s, rlvc_agent *agent) {
+    rlvc_replay *replay = &agent->replay;
     rlvc_stream_u32(s, &replay->head);
     rlvc_stream_u32(s, &replay->count);
     rlvc_stream_u32(s, &replay->stored);
@@ -105,7 +106,7 @@ static int pass_replay(rlvc_stream *s, rlvc_replay *replay) {
     if (replay->head >= replay->slots || replay->count > replay->slots)
         return 0;
     for (uint32_t position = 0; position < replay->count; position++)
-        pass_slot(s, replay, rlvc_replay_slot(replay, position));
+        pass_slot(s, replay, agent->domain.percept_words, rlvc_replay_slot(replay, position));
     return 1;
 }
 
@@ -136,7 +137,8 @@ static int pass_tree(rlvc_stream *s, rlvc_agent *agent) {
         rlvc_stream_float(s, &about->log_tests);
         rlvc_stream_float(s, &about->score);
         rlvc_stream_float(s, &about->log_p);
-        rlvc_stream_bytes(s, rlvc_tree_feature(tree, j), tree->feature_bytes);
+        rlvc_stream_record(s, rlvc_tree_feature(tree, j), tree->feature_bytes,
+                           agent->domain.feature_words, agent->domain.feature_halves);
         if (loading && !split_is_sound(agent, about, j))
             return 0;
     }
@@ -195,7 +197,7 @@ static void pass_learner(rlvc_stream *s, rlvc_learner *learner, rlvc_cursor_mark
 /* All that comes after the identity. */
 static int pass_state(rlvc_stream *s, rlvc_agent *agent, rlvc_cursor_mark *mark) {
     pass_counters(s, agent);
-    if (!pass_replay(s, &agent->replay) || !pass_tree(s, agent))
+    if (!pass_replay(s, agent) || !pass_tree(s, agent))
         return 0;
     pass_values(s, agent);
     pass_explorer(s, agent);

@@ -189,6 +189,35 @@ void rlvc_stream_float(rlvc_stream *stream, float *number) {
     memcpy(number, &bits, sizeof bits);
 }
 
+/* Passes numbers of 2 or 4 bytes each, up to `limit` bytes of them.
+ * @return how many bytes they were. */
+static uint32_t pass_numbers(rlvc_stream *stream, unsigned char *at, uint32_t count, uint32_t width,
+                             uint32_t limit) {
+    uint32_t passed = 0;
+    for (uint32_t i = 0; i < count && limit - passed >= width; i++, passed += width) {
+        uint32_t word;
+        uint16_t half;
+        if (width == sizeof word) {
+            memcpy(&word, at + passed, sizeof word);
+            rlvc_stream_u32(stream, &word);
+            memcpy(at + passed, &word, sizeof word);
+        } else {
+            memcpy(&half, at + passed, sizeof half);
+            rlvc_stream_u16(stream, &half);
+            memcpy(at + passed, &half, sizeof half);
+        }
+    }
+    return passed;
+}
+
+void rlvc_stream_record(rlvc_stream *stream, void *record, uint32_t bytes, uint32_t words,
+                        uint32_t halves) {
+    unsigned char *at = (unsigned char *)record;
+    uint32_t passed = pass_numbers(stream, at, words, 4, bytes);
+    passed += pass_numbers(stream, at + passed, halves, 2, bytes - passed);
+    rlvc_stream_bytes(stream, at + passed, bytes - passed);
+}
+
 rlvc_status rlvc_stream_end(rlvc_stream *stream) {
     const rlvc_store *store = stream->store;
     if (stream->status == RLVC_OK && stream->size != rlvc_stream_size(stream))

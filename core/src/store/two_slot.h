@@ -53,6 +53,11 @@ void rlvc_stream_load(rlvc_stream *stream, const rlvc_store *store, const rlvc_t
 /* Passes `bytes` bytes. What is loaded after a failure are zeros. */
 void rlvc_stream_bytes(rlvc_stream *stream, void *data, uint32_t bytes);
 
+/* Passes a record that begins with `words` numbers of 4 bytes, as this target keeps them, and
+ * `halves` of 2 bytes, as far as they are within it. */
+void rlvc_stream_record(rlvc_stream *stream, void *record, uint32_t bytes, uint32_t words,
+                        uint32_t halves);
+
 /* Pass a number, by its type. */
 void rlvc_stream_u8(rlvc_stream *stream, uint8_t *number);
 void rlvc_stream_u16(rlvc_stream *stream, uint16_t *number);

@@ -192,7 +192,8 @@ class Domain(c.Structure):
         ("features_max", c.c_uint32), ("kind", c.c_uint32), ("exhibits", DOMAIN_EXHIBITS),
         ("candidates", DOMAIN_CANDIDATES), ("detect", DOMAIN_DETECT), ("oracle", DOMAIN_ORACLE),
         ("name", DOMAIN_NAME), ("check_percept", DOMAIN_CHECK_PERCEPT),
-        ("check_feature", DOMAIN_CHECK_FEATURE),
+        ("check_feature", DOMAIN_CHECK_FEATURE), ("percept_words", c.c_uint32),
+        ("feature_words", c.c_uint32), ("feature_halves", c.c_uint32),
     ]
 
 
@@ -272,7 +273,7 @@ class LogWriter(c.Structure):
 
     _fields_ = [
         ("write", LOG_WRITER_WRITE), ("ctx", c.c_void_p), ("percept_bytes", c.c_uint32),
-        ("sequence", c.c_uint16), ("actions", c.c_uint8),
+        ("percept_words", c.c_uint32), ("sequence", c.c_uint16), ("actions", c.c_uint8),
     ]
 
 
@@ -305,12 +306,12 @@ class LogReader(c.Structure):
 
     _fields_ = [
         ("read", LOG_READER_READ), ("ctx", c.c_void_p), ("buffer", c.c_void_p),
-        ("room", c.c_uint32), ("percept_bytes", c.c_uint32), ("actions", c.c_uint32),
-        ("from", c.c_uint32), ("held", c.c_uint32), ("at", c.c_uint64), ("start", LogCrc),
-        ("reach", LogCrc * 4), ("furthest", c.c_uint64), ("shift", LogShift * 4),
-        ("skipped", c.c_uint64), ("damaged", c.c_uint32), ("lost", c.c_uint32),
-        ("torn", c.c_uint8), ("skipping", c.c_uint8), ("counting", c.c_uint8),
-        ("linked", c.c_uint8), ("sequence", c.c_uint16),
+        ("room", c.c_uint32), ("percept_bytes", c.c_uint32), ("percept_words", c.c_uint32),
+        ("actions", c.c_uint32), ("from", c.c_uint32), ("held", c.c_uint32), ("at", c.c_uint64),
+        ("start", LogCrc), ("reach", LogCrc * 4), ("furthest", c.c_uint64),
+        ("shift", LogShift * 4), ("skipped", c.c_uint64), ("damaged", c.c_uint32),
+        ("lost", c.c_uint32), ("torn", c.c_uint8), ("skipping", c.c_uint8),
+        ("counting", c.c_uint8), ("linked", c.c_uint8), ("sequence", c.c_uint16),
     ]
 
 
