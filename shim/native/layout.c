@@ -7,6 +7,7 @@
 #include "rlvc/agent.h"
 #include "rlvc/bits.h"
 #include "rlvc/chi2.h"
+#include "rlvc/counts.h"
 #include "rlvc/descriptors.h"
 #include "rlvc/domain.h"
 #include "rlvc/export.h"
@@ -97,6 +98,32 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_split, log_tests)},
     {FIELD(rlvc_split, score)},
     {FIELD(rlvc_split, log_p)},
+    {SIZE(rlvc_exact_sum)},
+    {FIELD(rlvc_exact_sum, word)},
+    {SIZE(rlvc_count_row)},
+    {FIELD(rlvc_count_row, count)},
+    {FIELD(rlvc_count_row, now)},
+    {FIELD(rlvc_count_row, next)},
+    {FIELD(rlvc_count_row, reward)},
+    {FIELD(rlvc_count_row, action)},
+    {FIELD(rlvc_count_row, terminated)},
+    {FIELD(rlvc_count_row, reserved)},
+    {SIZE(rlvc_count_pair)},
+    {FIELD(rlvc_count_pair, now)},
+    {FIELD(rlvc_count_pair, action)},
+    {FIELD(rlvc_count_pair, reserved)},
+    {SIZE(rlvc_counts)},
+    {FIELD(rlvc_counts, row)},
+    {FIELD(rlvc_counts, with)},
+    {FIELD(rlvc_counts, pair)},
+    {FIELD(rlvc_counts, follow)},
+    {FIELD(rlvc_counts, reward)},
+    {FIELD(rlvc_counts, feature)},
+    {FIELD(rlvc_counts, tested)},
+    {FIELD(rlvc_counts, rows)},
+    {FIELD(rlvc_counts, pairs)},
+    {FIELD(rlvc_counts, features)},
+    {FIELD(rlvc_counts, cell_bits)},
     {SIZE(rlvc_descriptors)},
     {FIELD(rlvc_descriptors, points)},
     {FIELD(rlvc_descriptors, dimensions)},

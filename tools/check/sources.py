@@ -13,7 +13,7 @@ SOURCES = ROOT / "core/src"
 # The rooms of core/src, from the ground up (core/DESIGN.md). A file includes headers of its own room and of
 # the rooms before it, and any public header.
 ROOMS = ("base", "stats", "tree", "samples", "split", "solve", "explore", "dynamics", "plan", "agent",
-         "export", "policy", "store")
+         "counts", "export", "policy", "store")
 # The rooms of run_gridworld, by the same rule. Files beside them may include any.
 TOOL = ROOT / "tools/run_gridworld"
 TOOL_ROOMS = ("cli", "maze", "report", "tiled")

@@ -6,6 +6,7 @@
 #include "rlvc/agent.h"
 #include "rlvc/bits.h"
 #include "rlvc/chi2.h"
+#include "rlvc/counts.h"
 #include "rlvc/descriptors.h"
 #include "rlvc/domain.h"
 #include "rlvc/export.h"

@@ -139,14 +139,6 @@ static rlvc_status step_label(rlvc_agent *agent) {
 /* What it is charged to decide upon a split: some logarithms, or this many features compared. */
 #define DECIDE_UNITS 32u
 
-/* What was found in class `at`: the feature, or null. */
-static const void *found(const rlvc_agent *agent, rlvc_split *split) {
-    const rlvc_learner *learner = &agent->learner;
-    return learner->phase == RLVC_PHASE_SEARCH
-               ? rlvc_split_search_result(&learner->work.split, &agent->space, split)
-               : rlvc_successor_search_result(&learner->work.successors, &agent->space, split);
-}
-
 /* Carries a split of class `at` out. */
 static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
     rlvc_learner *learner = &agent->learner;
@@ -197,33 +189,35 @@ static float log_level(const rlvc_agent *agent) {
     return rlvc_ln(agent->config.alpha) - rlvc_ln((float)(d * (d + 1u)) * steps * phases);
 }
 
-static uint32_t close_class(rlvc_agent *agent, uint32_t used) {
-    agent->learner.searching = 0;
-    agent->learner.walk.compared = 0;
-    agent->learner.at++;
-    return used;
+/* Whether a split that was found is to be made; -1: not known yet, as the tree has more features to
+ * compare with. */
+static int is_significant(rlvc_agent *agent, const rlvc_split *split, const void *feature) {
+    if (split->log_p < log_level(agent))
+        return 1;
+    if (!(split->log_p < rlvc_ln(agent->config.alpha_known)))
+        return 0;
+    if (recognise(agent, feature))
+        return 1;
+    return agent->learner.walk.compared + 1u < agent->tree.classes ? -1 : 0;
 }
 
-/* Takes the result of the search in class `at`, and carries the split out if it is significant.
- * Returns the units used. */
-static uint32_t decide(rlvc_agent *agent) {
-    rlvc_split split;
-    const void *feature = found(agent, &split);
-    if (!feature)
-        return close_class(agent, 1);
-    if (!(split.log_p < log_level(agent))) {
-        if (!(split.log_p < rlvc_ln(agent->config.alpha_known)))
-            return close_class(agent, DECIDE_UNITS);
-        if (!recognise(agent, feature))
-            return agent->learner.walk.compared + 1u < agent->tree.classes
-                       ? DECIDE_UNITS
-                       : close_class(agent, DECIDE_UNITS);
+uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature) {
+    rlvc_learner *learner = &agent->learner;
+    uint32_t used = 1u;
+    if (feature) {
+        int significant = is_significant(agent, split, feature);
+        used = DECIDE_UNITS;
+        if (significant < 0)
+            return used;
+        if (significant > 0 && agent->tree.classes == agent->tree.classes_max)
+            agent->refused++;
+        else if (significant > 0)
+            grow(agent, split, feature);
     }
-    if (agent->tree.classes == agent->tree.classes_max)
-        agent->refused++;
-    else
-        grow(agent, &split, feature);
-    return close_class(agent, DECIDE_UNITS);
+    learner->searching = 0;
+    learner->walk.compared = 0;
+    learner->at++;
+    return used;
 }
 
 static void end_round(rlvc_agent *agent) {
@@ -259,11 +253,18 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
             rlvc_split_search_begin(&learner->work.split, &input, first);
         learner->searching = 1;
     }
-    if (succession && !learner->work.successors.done)
-        return rlvc_successor_search_step(&learner->work.successors, &input, budget, used);
-    if (!succession && !learner->work.split.done)
-        return rlvc_split_search_step(&learner->work.split, &input, budget, used);
-    *used = decide(agent);
+    rlvc_split split;
+    const void *feature;
+    if (succession) {
+        if (!learner->work.successors.done)
+            return rlvc_successor_search_step(&learner->work.successors, &input, budget, used);
+        feature = rlvc_successor_search_result(&learner->work.successors, &agent->space, &split);
+    } else {
+        if (!learner->work.split.done)
+            return rlvc_split_search_step(&learner->work.split, &input, budget, used);
+        feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
+    }
+    *used = rlvc_learner_decide(agent, &split, feature);
     return RLVC_OK;
 }
 

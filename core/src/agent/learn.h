@@ -31,6 +31,12 @@ rlvc_target_input rlvc_learner_target_input(const rlvc_agent *agent, uint8_t kin
 rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
                                           const rlvc_target_input *criterion);
 
+/* Takes what was found in class `at`, its feature or null, and carries the split out if it is
+ * significant. The features of the tree are compared with it some at a time: the class is done once
+ * `at` is the next one.
+ * @return the units used */
+uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature);
+
 /* What a solution of the step looks at. */
 rlvc_solver_input rlvc_learner_solver_input(const rlvc_agent *agent);
 

@@ -12,12 +12,12 @@
 #ifndef RLVC_SRC_MEAN_H
 #define RLVC_SRC_MEAN_H
 
-#include <stdint.h>
+#include "count.h"
 
 typedef struct rlvc_sum {
     float sum;
     float rest;
-    uint32_t weight; /* of all terms so far */
+    rlvc_count weight; /* of all terms so far */
 } rlvc_sum;
 
 static inline void rlvc_sum_clear(rlvc_sum *total) {
@@ -26,7 +26,8 @@ static inline void rlvc_sum_clear(rlvc_sum *total) {
     total->weight = 0u;
 }
 
-/* Adds `weight` samples of value `term`; the weights of all samples add up to less than 2^32. */
+/* Adds `weight` samples of value `term`; the weights of all samples add up to RLVC_COUNT_MAX at
+ * most. */
 inline void rlvc_sum_add(rlvc_sum *total, float term, uint32_t weight) {
     float x = term * (float)weight;
     float s = total->sum + x;

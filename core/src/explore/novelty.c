@@ -53,7 +53,7 @@ static void close_class(rlvc_novelty_cursor *cursor, const rlvc_solver_input *in
 static void close_pair(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
                        const rlvc_values *values, rlvc_explorer *explorer) {
     size_t pair = rlvc_values_pair(values, cursor->class_id, cursor->action);
-    uint32_t n = cursor->sum.weight;
+    rlvc_count n = cursor->sum.weight;
     float u = n < explorer->min_tried ? 1.0f : NOVELTY_DISCOUNT * rlvc_sum_mean(&cursor->sum);
     if (cursor->sweeps == 0 && explorer->count)
         explorer->count[pair] = (uint8_t)(n < UINT8_MAX ? n : UINT8_MAX);

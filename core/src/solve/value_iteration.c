@@ -147,7 +147,7 @@ void rlvc_solver_mark(const rlvc_solver_cursor *solver, uint32_t word[10]) {
     word[6] = rlvc_bits_of(solver->largest);
     word[7] = rlvc_bits_of(solver->sum.sum);
     word[8] = rlvc_bits_of(solver->sum.rest);
-    word[9] = solver->sum.weight;
+    word[9] = (uint32_t)solver->sum.weight; /* of samples in a ring */
 }
 
 /* Is the cursor that words gave within the model? */

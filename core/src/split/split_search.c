@@ -10,10 +10,8 @@
 
 #include "split_search.h"
 
-#include "../base/float_math.h"
 #include "../base/popcount.h"
 #include "../base/solver_select.h"
-#include "rlvc/chi2.h"
 #include "../stats/score.h"
 #include <string.h>
 
@@ -138,7 +136,7 @@ void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *
 /* After all groups are marked: begins to look for features, if anything could be told apart. */
 static void end_marking(rlvc_split_cursor *search, const rlvc_split_input *input) {
     search->action = 0;
-    if (search->groups == 0 || search->samples < input->min_samples)
+    if (search->evidence.groups == 0 || search->evidence.samples < input->min_samples)
         enter(search, DONE);
     else
         enter(search, input->domain->oracle ? ASK : PROPOSE);
@@ -149,9 +147,7 @@ static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input
     rlvc_group *group = &input->space->group[search->action];
     if (BY_RANKS(input) && group->cuts > 0)
         group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
-    search->groups += group->cuts > 0;
-    search->samples += group->cuts > 0 ? size_of(group) : 0;
-    search->cuts += group->cuts;
+    rlvc_evidence_group(&search->evidence, size_of(group), group->cuts);
     if (++search->action == input->space->actions)
         end_marking(search, input);
     else
@@ -258,7 +254,7 @@ static void open_column(rlvc_split_cursor *search, const rlvc_split_input *input
     rlvc_cutpoint_begin(&search->inner.scan,
                         rlvc_workspace_column(space, search->words, search->column) + group->word,
                         space->bits.cutpoints + group->word, size_of(group), input->by_ranks,
-                        search->groups == 1 ? search->per_action.score : 0.0f);
+                        search->evidence.groups == 1 ? search->evidence.per_action.score : 0.0f);
 }
 
 static rlvc_status detect(rlvc_split_cursor *search, const rlvc_split_input *input,
@@ -281,19 +277,13 @@ static rlvc_per_action weigh(const rlvc_split_cursor *search, const rlvc_split_i
     uint32_t above = cut->present - cut->present_below;
     const rlvc_table table = {cut->present_below, cut->below - cut->present_below, above,
                               count - cut->below - above};
-    rlvc_per_action weighed = {0.0f, cut->score, table, search->action};
-    weighed.evidence = BY_RANKS(input) ? cut->score : cut->score * (float)count;
-    return weighed;
+    return rlvc_evidence_weigh(&table, cut->score, search->action, BY_RANKS(input));
 }
 
 static void keep_best_per_action(rlvc_split_cursor *search, const rlvc_workspace *space,
                                  const rlvc_per_action *found, uint32_t j) {
-    const rlvc_per_action *best = &search->per_action;
-    if (found->evidence > best->evidence ||
-        (found->evidence == best->evidence && found->action < best->action)) {
-        search->per_action = *found;
+    if (rlvc_evidence_keep(&search->evidence, found))
         memcpy(space->per_action, rlvc_workspace_feature(space, j), space->feature_bytes);
-    }
 }
 
 /* Takes the result of one column and goes on to the next, or to the next group. */
@@ -302,15 +292,11 @@ static void close_column(rlvc_split_cursor *search, const rlvc_split_input *inpu
     const rlvc_group *group = &space->group[search->action];
     const rlvc_cutpoint *found = &search->inner.scan.best;
     rlvc_pooled *pool = &space->pool[search->column];
-    if (found->present > 0 && found->present < size_of(group)) {
-        pool->degrees++;
-        pool->log_tests += rlvc_ln((float)group->cuts);
-    }
+    if (found->present > 0 && found->present < size_of(group))
+        rlvc_evidence_divides(pool, group->cuts);
     if (found->score > 0.0f) {
         rlvc_per_action weighed = weigh(search, input, found, size_of(group));
-        pool->evidence += weighed.evidence;
-        pool->statistic +=
-            BY_RANKS(input) ? weighed.evidence : rlvc_table_statistic(&weighed.table);
+        rlvc_evidence_pool(pool, &weighed, BY_RANKS(input));
         keep_best_per_action(search, space, &weighed, search->column);
     }
     if (++search->column < search->block) {
@@ -323,12 +309,8 @@ static void close_column(rlvc_split_cursor *search, const rlvc_split_input *inpu
 
 /* All groups have seen the block: looks at feature `column` of it, together. A unit each. */
 static void close_feature(rlvc_split_cursor *search, const rlvc_workspace *space) {
-    const rlvc_pooled *pool = &space->pool[search->column];
-    search->features += pool->degrees > 0;
-    if (pool->evidence > search->pooled.evidence) {
-        search->pooled = *pool;
+    if (rlvc_evidence_close(&search->evidence, &space->pool[search->column]))
         memcpy(space->pooled, rlvc_workspace_feature(space, search->column), space->feature_bytes);
-    }
     if (++search->column < search->block)
         return;
     search->first += search->block;
@@ -386,7 +368,7 @@ static rlvc_status answer(rlvc_split_cursor *search, const rlvc_split_input *inp
     search->at++;
     if (answer->present == 0 || answer->present == count)
         return RLVC_OK;
-    search->features += answer->considered;
+    search->evidence.features += answer->considered;
     uint32_t above = answer->present - answer->present_below;
     rlvc_cutpoint cut = {0.0f, below, answer->present_below, answer->present};
     cut.score =
@@ -400,19 +382,16 @@ static rlvc_status answer(rlvc_split_cursor *search, const rlvc_split_input *inp
 
 /* Finds the p-value of one of the winners, if there are any. */
 static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
-    const rlvc_pooled *pooled = &search->pooled;
-    if (!(search->per_action.evidence > 0.0f)) {
+    rlvc_evidence *evidence = &search->evidence;
+    if (!rlvc_evidence_found(evidence)) {
         enter(search, DONE);
         return 1;
     }
     if (search->phase == TEST_PER_ACTION) {
-        if (BY_RANKS(input))
-            (void)rlvc_chi2_survival(search->per_action.score, 1, NULL, &search->per_action_log_p);
-        else
-            search->per_action_log_p = rlvc_table_log_p(&search->per_action.table);
-        enter(search, search->groups > 1 && pooled->degrees > 0 ? TEST_POOLED : DONE);
+        rlvc_evidence_test_per_action(evidence, BY_RANKS(input));
+        enter(search, rlvc_evidence_is_pooled(evidence) ? TEST_POOLED : DONE);
     } else {
-        (void)rlvc_chi2_survival(pooled->statistic, pooled->degrees, NULL, &search->pooled_log_p);
+        rlvc_evidence_test_pooled(evidence);
         enter(search, DONE);
     }
     return RLVC_TEST_UNITS;
@@ -507,32 +486,8 @@ void rlvc_split_search_mark(const rlvc_split_cursor *search, uint32_t word[10]) 
 
 const void *rlvc_split_search_result(const rlvc_split_cursor *search, const rlvc_workspace *space,
                                      rlvc_split *about) {
-    const rlvc_per_action *per_action = &search->per_action;
-    if (!(per_action->evidence > 0.0f))
+    if (!rlvc_evidence_found(&search->evidence))
         return NULL;
-    float log_features = rlvc_ln((float)search->features);
-    about->action = per_action->action;
-    about->samples = size_of(&space->group[per_action->action]);
-    about->score = per_action->score;
-    about->log_tests = log_features;
-    /* The domain's own oracle already counts a feature for each cutpoint, and makes no sum. */
-    if (search->pooled.degrees > 0)
-        about->log_tests += rlvc_ln((float)search->cuts);
-    about->log_p = search->per_action_log_p + about->log_tests;
-    if (search->groups > 1 && search->pooled.degrees > 0) {
-        const rlvc_pooled *pooled = &search->pooled;
-        float log_tests = log_features + pooled->log_tests;
-        float log_p = search->pooled_log_p + log_tests;
-        if (log_p < about->log_p) {
-            about->action = space->actions;
-            about->samples = search->samples;
-            about->score = pooled->evidence / (float)search->samples;
-            about->log_tests = log_tests;
-            about->log_p = log_p;
-        }
-        about->log_tests += rlvc_ln(2.0f);
-        about->log_p += rlvc_ln(2.0f);
-    }
-    about->log_p = about->log_p < 0.0f ? about->log_p : 0.0f;
+    rlvc_evidence_result(&search->evidence, space->actions, about);
     return about->action == space->actions ? space->pooled : space->per_action;
 }

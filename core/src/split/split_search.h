@@ -32,7 +32,7 @@
 
 #include "../samples/targets.h"
 #include "cutpoint.h"
-#include "../stats/table_test.h"
+#include "evidence.h"
 #include "../samples/rows.h"
 #include "../samples/sort.h"
 
@@ -46,22 +46,6 @@ typedef struct rlvc_group {
 
 /* What a p-value is charged: a sum of dozens of terms (chi2.c, table_test.c). */
 #define RLVC_TEST_UNITS RLVC_BUDGET_MIN
-
-/* Evidence for one feature of the block, pooled over the groups so far. */
-typedef struct rlvc_pooled {
-    float evidence;
-    float statistic;
-    float log_tests; /* of combinations of cutpoints */
-    uint32_t degrees;
-} rlvc_pooled;
-
-/* The best feature of one action. */
-typedef struct rlvc_per_action {
-    float evidence;
-    float score;
-    rlvc_table table;
-    uint32_t action;
-} rlvc_per_action;
 
 /* The memory of a search. */
 typedef struct rlvc_workspace {
@@ -112,21 +96,14 @@ typedef struct rlvc_split_cursor {
         rlvc_cutpoint_cursor scan;
         rlvc_answer answer;
     } inner;
-    rlvc_per_action per_action;
-    rlvc_pooled pooled;
-    uint64_t features;      /* F; with the domain's own oracle, what it considered in all */
-    uint32_t samples;       /* in the groups that take part */
-    uint32_t cuts;          /* in all groups */
-    uint32_t groups;        /* that take part */
-    uint32_t action;        /* the group at work */
-    uint32_t words;         /* of all groups */
-    uint32_t at;            /* sample of the group */
-    uint32_t lowest;        /* the key that began the present cluster of targets */
-    uint32_t first;         /* number of the block's first candidate */
-    uint32_t block;         /* candidates in the block */
-    uint32_t column;        /* of the block */
-    float per_action_log_p; /* of the winners' statistics, not yet corrected */
-    float pooled_log_p;
+    rlvc_evidence evidence;
+    uint32_t action; /* the group at work */
+    uint32_t words;  /* of all groups */
+    uint32_t at;     /* sample of the group */
+    uint32_t lowest; /* the key that began the present cluster of targets */
+    uint32_t first;  /* number of the block's first candidate */
+    uint32_t block;  /* candidates in the block */
+    uint32_t column; /* of the block */
     uint8_t phase;
     uint8_t done;
 } rlvc_split_cursor;

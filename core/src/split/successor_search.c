@@ -9,8 +9,6 @@
 #include "successor_search.h"
 
 #include "../base/popcount.h"
-#include "../base/float_math.h"
-#include "rlvc/chi2.h"
 #include <string.h>
 
 enum { PROPOSE, NOW, NEXT, COUNT, TABLE, TEST, DONE };
@@ -123,26 +121,10 @@ static uint32_t count(rlvc_successor_cursor *search, const rlvc_workspace *space
     return to == from ? 1u : to - from; /* 1 for an empty group */
 }
 
-/* ln of the number of tests that a pair is corrected by (Bonferroni). Whether s' exhibits what s
- * exhibits is mostly told by s: the F pairs with g = f have half of the level, and the other F (F -
- * 1) the other half. */
-static float log_tests(const rlvc_successor_cursor *search, const rlvc_successor_pair *pair) {
-    float features = (float)search->features;
-    return rlvc_ln(2.0f * features * (pair->persists ? 1.0f : features - 1.0f));
-}
-
 /* The sums of a pair are complete: goes on to the next pair. */
 static void close_pair(rlvc_successor_cursor *search) {
-    static const rlvc_successor_pair nothing = {0.0f, 0.0f, 0, 0, 0};
-    rlvc_successor_pair *pair = &search->sum;
-    if (pair->degrees > 0) {
-        pair->feature = search->now;
-        pair->persists = search->now == search->next;
-        pair->evidence = pair->statistic - 2.0f * log_tests(search, pair);
-        if (search->best.degrees == 0 || pair->evidence > search->best.evidence)
-            search->best = *pair;
-    }
-    *pair = nothing;
+    rlvc_successor_pair_close(&search->sum, search->now, search->next, search->features,
+                              &search->best);
     if (++search->now < search->features) {
         enter(search, COUNT);
         return;
@@ -154,13 +136,8 @@ static void close_pair(rlvc_successor_cursor *search) {
 /* Weighs the table of one action. */
 static void weigh(rlvc_successor_cursor *search, const rlvc_workspace *space) {
     const rlvc_group *group = &space->group[search->action];
-    uint32_t size = group->end - group->begin;
-    uint32_t both = search->with_both, now = search->with_now, next = search->with_next;
-    if (now > 0 && now < size && next > 0 && next < size) {
-        const rlvc_table table = {both, now - both, next - both, size - now - next + both};
-        search->sum.statistic += rlvc_table_statistic(&table);
-        search->sum.degrees++;
-    }
+    rlvc_successor_pair_add(&search->sum, group->end - group->begin, search->with_now,
+                            search->with_next, search->with_both);
     search->with_both = 0;
     search->with_now = 0;
     search->with_next = 0;
@@ -190,9 +167,7 @@ static rlvc_status advance(rlvc_successor_cursor *search, const rlvc_split_input
         return RLVC_OK;
     default:
         *used = RLVC_TEST_UNITS;
-        if (search->best.degrees > 0)
-            (void)rlvc_chi2_survival(search->best.statistic, search->best.degrees, NULL,
-                                     &search->log_p);
+        search->log_p = rlvc_successor_pair_log_p(&search->best);
         enter(search, DONE);
         return RLVC_OK;
     }
@@ -235,13 +210,8 @@ void rlvc_successor_search_mark(const rlvc_successor_cursor *search, uint32_t wo
 
 const void *rlvc_successor_search_result(const rlvc_successor_cursor *search,
                                          const rlvc_workspace *space, rlvc_split *about) {
-    if (search->best.degrees == 0)
+    if (!rlvc_successor_pair_result(&search->best, search->log_p, search->features,
+                                    search->view.count, space->actions, about))
         return NULL;
-    about->action = space->actions + 1u;
-    about->samples = search->view.count;
-    about->score = search->best.statistic / (float)search->view.count;
-    about->log_tests = log_tests(search, &search->best);
-    about->log_p = search->log_p + about->log_tests;
-    about->log_p = about->log_p < 0.0f ? about->log_p : 0.0f;
     return rlvc_workspace_feature(space, search->best.feature);
 }

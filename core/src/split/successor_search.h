@@ -19,15 +19,7 @@
 #define RLVC_SRC_SUCCESSOR_SEARCH_H
 
 #include "split_search.h"
-
-/* The sum over the actions for one pair (f, g). */
-typedef struct rlvc_successor_pair {
-    float statistic;
-    float evidence;
-    uint32_t degrees;
-    uint32_t feature;  /* f */
-    uint32_t persists; /* g = f? */
-} rlvc_successor_pair;
+#include "successor_pair.h"
 
 /* The search in one class, in slices. */
 typedef struct rlvc_successor_cursor {

@@ -10,7 +10,8 @@
  *
  * Were the two independent, a cell would hold E = r * c / N. All four cells miss that by the same
  * amount, |O - E| = |n| / N with n = a d - b c, which integers hold exactly; so nothing here is a
- * difference of large numbers that nearly agree, and binary32 keeps its 24 bits up to N = 2^31 - 1:
+ * difference of large numbers that nearly agree, and binary32 keeps its 24 bits up to N =
+ * RLVC_COUNT_MAX:
  *
  * The score is the information gain in bits per sample,
  *
@@ -22,7 +23,7 @@
 #ifndef RLVC_SRC_SCORE_H
 #define RLVC_SRC_SCORE_H
 
-#include <stdint.h>
+#include "../base/count.h"
 
 /* The computed score is within this of the exact one, relatively: 128 units in the last place,
  * about twice the sum of all the roundings where they weigh most (a cell with P / Q near 1.7, see
@@ -30,9 +31,9 @@
 #define RLVC_SCORE_ERROR (1.0f / 131072.0f)
 
 /* The score of a table, 0 or more; 0 if a row or a column is empty. O(1).
- * @param present_below ... absent_above  a, b, c, d: their sum at most 2^31 - 1 */
-float rlvc_score(uint32_t present_below, uint32_t absent_below, uint32_t present_above,
-                 uint32_t absent_above);
+ * @param present_below ... absent_above  a, b, c, d: their sum at most RLVC_COUNT_MAX */
+float rlvc_score(rlvc_count present_below, rlvc_count absent_below, rlvc_count present_above,
+                 rlvc_count absent_above);
 
 /* p ln(p / q) - (p - q) >= 0, for p >= 0 and q > 0, without cancelling where they nearly agree.
  * O(1).

@@ -40,7 +40,7 @@
 #define NEGLIGIBLE 1e-6f
 
 /* c(n): from 4 on by Stirling's series. */
-static float correction(uint32_t n) {
+static float correction(rlvc_count n) {
     static const float small[4] = {-0.918938533f, 0.081061467f, 0.041340696f, 0.027677926f};
     if (n < 4)
         return small[n];
@@ -50,7 +50,7 @@ static float correction(uint32_t n) {
 }
 
 /* x / y, each 1 if it is 0. */
-static float ratio(uint32_t x, uint32_t y) {
+static float ratio(rlvc_count x, rlvc_count y) {
     return (float)(x > 0 ? x : 1u) / (float)(y > 0 ? y : 1u);
 }
 
@@ -62,9 +62,9 @@ static float likelihood(const rlvc_table *t) {
 
 /* ln P. */
 static float ln_probability(const rlvc_table *t) {
-    const uint32_t sums[4] = {t->a + t->b, t->c + t->d, t->a + t->c, t->b + t->d};
-    const uint32_t cells[4] = {t->a, t->d, t->c, t->b};
-    uint32_t n = sums[0] + sums[1];
+    const rlvc_count sums[4] = {t->a + t->b, t->c + t->d, t->a + t->c, t->b + t->d};
+    const rlvc_count cells[4] = {t->a, t->d, t->c, t->b};
+    rlvc_count n = sums[0] + sums[1];
     float quotient = ratio(1, n), corrections = -correction(n);
     for (int i = 0; i < 4; i++) {
         quotient *= ratio(sums[i], cells[i]);
@@ -101,18 +101,37 @@ static float ln_exact(const rlvc_table *table) {
     return ln_p < 0.0f ? ln_p : 0.0f;
 }
 
-static uint32_t smaller(uint32_t x, uint32_t y) {
+static rlvc_count smaller(rlvc_count x, rlvc_count y) {
     return x < y ? x : y;
 }
 
 static int expects_below(const rlvc_table *t, uint32_t count) {
-    uint64_t row = smaller(t->a + t->b, t->c + t->d), column = smaller(t->a + t->c, t->b + t->d);
-    return row * column < (uint64_t)count * (t->a + t->b + t->c + t->d);
+    rlvc_count row = smaller(t->a + t->b, t->c + t->d), column = smaller(t->a + t->c, t->b + t->d);
+    return rlvc_product_below(rlvc_product_of(row, column),
+                              rlvc_product_of(t->a + t->b + t->c + t->d, count));
 }
+
+#if RLVC_COUNT_BITS == 64
+/* The statistic where products do not fit into 63 bits: as chi2.c works it out. */
+static float wide_pearson(const rlvc_table *t) {
+    rlvc_product rows = rlvc_product_of(t->a + t->b, t->c + t->d);
+    rlvc_product columns = rlvc_product_of(t->a + t->c, t->b + t->d);
+    float determinant =
+        rlvc_product_difference(rlvc_product_of(t->a, t->d), rlvc_product_of(t->b, t->c));
+    float u = determinant / rlvc_product_float(rows);
+    float v = determinant / rlvc_product_float(columns);
+    return (float)(t->a + t->b + t->c + t->d) * (u * v);
+}
+#endif
 
 static float pearson(const rlvc_table *table) {
     float statistic = 0.0f;
-    (void)rlvc_chi2_table(table->a, table->b, table->c, table->d, &statistic);
+#if RLVC_COUNT_BITS == 64
+    if (table->a + table->b + table->c + table->d > INT32_MAX)
+        return wide_pearson(table);
+#endif
+    (void)rlvc_chi2_table((uint32_t)table->a, (uint32_t)table->b, (uint32_t)table->c,
+                          (uint32_t)table->d, &statistic);
     return statistic;
 }
 

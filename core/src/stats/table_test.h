@@ -10,11 +10,11 @@
 #ifndef RLVC_SRC_TABLE_TEST_H
 #define RLVC_SRC_TABLE_TEST_H
 
-#include <stdint.h>
+#include "../base/count.h"
 
-/* The table, and the letters, of score.h. */
+/* The table, and the letters, of score.h; of RLVC_COUNT_MAX samples at most. */
 typedef struct rlvc_table {
-    uint32_t a, b, c, d;
+    rlvc_count a, b, c, d;
 } rlvc_table;
 
 /* ln p of a table by itself; it has two rows and two columns. O(1). */

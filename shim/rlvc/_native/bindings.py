@@ -57,6 +57,10 @@ BITS_MAX = 1024
 BITS_FEATURE_BYTES = 2
 CHI2_DEGREES_MAX = 255
 FISHER_EXPECTED_MAX = 25
+COUNTS_FEATURES_MAX = 1024
+CELL_BITS_MAX = 64
+COUNTS_MAX = 281474976710655
+EXACT_SUM_WORDS = 4
 DESCRIPTORS_FLOAT = 0
 DESCRIPTORS_INT8 = 1
 DESCRIPTORS_POINTS_MAX = 1000
@@ -247,6 +251,38 @@ class Split(c.Structure):
 
 
 WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)
+
+
+class ExactSum(c.Structure):
+    """``rlvc_exact_sum``."""
+
+    _fields_ = [("word", c.c_uint64 * 4)]
+
+
+class CountRow(c.Structure):
+    """``rlvc_count_row``."""
+
+    _fields_ = [
+        ("count", c.c_uint64), ("now", c.c_uint64), ("next", c.c_uint64), ("reward", c.c_float),
+        ("action", c.c_uint8), ("terminated", c.c_uint8), ("reserved", c.c_uint8 * 2),
+    ]
+
+
+class CountPair(c.Structure):
+    """``rlvc_count_pair``."""
+
+    _fields_ = [("now", c.c_uint64), ("action", c.c_uint32), ("reserved", c.c_uint32)]
+
+
+class Counts(c.Structure):
+    """``rlvc_counts``."""
+
+    _fields_ = [
+        ("row", c.c_void_p), ("with", c.c_void_p), ("pair", c.c_void_p), ("follow", c.c_void_p),
+        ("reward", c.c_void_p), ("feature", c.c_void_p), ("tested", c.c_void_p),
+        ("rows", c.c_uint32), ("pairs", c.c_uint32), ("features", c.c_uint32),
+        ("cell_bits", c.c_uint32),
+    ]
 
 
 class Descriptors(c.Structure):
@@ -561,6 +597,10 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_progress": Progress,
     "rlvc_statistics": Statistics,
     "rlvc_split": Split,
+    "rlvc_exact_sum": ExactSum,
+    "rlvc_count_row": CountRow,
+    "rlvc_count_pair": CountPair,
+    "rlvc_counts": Counts,
     "rlvc_descriptors": Descriptors,
     "rlvc_export_info": ExportInfo,
     "rlvc_log_writer": LogWriter,
@@ -623,6 +663,10 @@ CORE: Functions = {
     "rlvc_fisher_table": (c.c_int, [
         c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p,
     ]),
+    "rlvc_exact_sum_add": (None, [c.c_void_p, c.c_float, c.c_uint64]),
+    "rlvc_exact_sum_join": (None, [c.c_void_p, c.c_void_p]),
+    "rlvc_counts_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
+    "rlvc_learn_counts": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
     "rlvc_descriptors_default": (c.c_int, [
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_float,
     ]),

@@ -84,7 +84,7 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     const void *feature = rlvc_split_search_result(&search, &space, &about);
     Winner winner = {};
     if (feature) {
-        const rlvc_table &table = search.per_action.table;
+        const rlvc_table &table = search.evidence.per_action.table;
         winner = {{about.score, table.a + table.b, table.a, table.a + table.c},
                   rlvc_bits_feature(feature)};
     }
