@@ -23,7 +23,7 @@ metric = vision.Metric.fit(
 )
 eye = vision.Eye(vision.Extractor(metric=metric))
 run = rlvc.learn(env, 1000, encoder=eye, every=500, seed=1, discount=0.9)
-print("mean return:", run.evaluate(env, episodes=100, seed=1))
+print("mean return:", run.evaluate(env, episodes=100, seed=1).mean)
 made = report.make(run, env)
 for suffix in ("png", "svg"):
     plot.tiles(made, folder / f"tiles.{suffix}", env.objects)

@@ -15,13 +15,14 @@ reinforcement learning".
 #     _native    the C library: loaded, checked, declared
 #     domains    percepts and features (section 5)
 #     agent      the agent and the planner, their configurations, snapshots, policies
-#     learning   the loop around a Gymnasium environment (section 4.2.1)
-#     logs       learning from recorded interactions
 #     vision     pictures to percepts (sections 3 and 6.2)
 #     objects    the pictures of the Tiled Gridworld
 #     envs       the paper's mazes as Gymnasium environments
+#     words      tests of a tree in the words of a space
 #     report     a run as JSON
 #     plot       figures
+#     learning   the loop around a Gymnasium environment (section 4.2.1), and its result
+#     logs       learning from recorded interactions
 #     bench      what the package's calls cost
 from ._version import __version__
 from .agent.agent import Agent
@@ -47,13 +48,18 @@ from .domains.domain import Domain
 from .domains.thresholds import Thresholds
 from .errors import Error
 from .learning import encode
+from .learning.actions import Actions
 from .learning.encode import Encoder
+from .learning.evaluation import Evaluation
+from .learning.explanation import Explanation
 from .learning.learn import learn
 from .learning.run import Record, Run
+from .learning.store import load
 from .logs import learn_from
 
 __all__ = [
     "CHOICE",
+    "Actions",
     "Agent",
     "Batch",
     "Bits",
@@ -64,6 +70,8 @@ __all__ = [
     "Domain",
     "Encoder",
     "Error",
+    "Evaluation",
+    "Explanation",
     "MinTree",
     "PlannedPolicy",
     "Planner",
@@ -81,5 +89,6 @@ __all__ = [
     "encode",
     "learn",
     "learn_from",
+    "load",
     "min_tree",
 ]

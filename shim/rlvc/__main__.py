@@ -16,13 +16,13 @@ from .agent.agent import Agent
 from .agent.config import CHOICES
 from .agent.planned_policy import PlannedPolicy, is_policy
 from .agent.planned_policy import read_file as read_policy
-from .agent.planner import Planner
 from .agent.snapshot import read_file
 from .errors import EnvError, Error, RunError
-from .learning.encode import explain
 from .learning.learn import Method, learn
 from .learning.run import Run
+from .learning.store import is_run, load
 from .logs import learn_from
+from .words import explain
 
 _FIGURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
 _INTERRUPTED, _CLOSED_PIPE = 130, 141  # exit statuses: 128 and the number of the signal
@@ -196,7 +196,7 @@ def _learn(arguments: argparse.Namespace) -> int:
         print("rlvc: interrupted: the result is incomplete", file=sys.stderr)
         return _INTERRUPTED
     if env is not None and arguments.episodes > 0:
-        mean = run.evaluate(env, arguments.episodes, seed=arguments.seed)
+        mean = run.evaluate(env, arguments.episodes, seed=arguments.seed).mean
         print(f"mean return of {arguments.episodes} episodes: {mean:.4g}")
     return 0
 
@@ -209,21 +209,28 @@ def _summary(count: int, interactions: int, one: str = "class", many: str = "cla
 def _keep(run: Run, env: Any, arguments: argparse.Namespace) -> None:
     """Write the result: files first, as the reader of the text may close the output."""
     if arguments.save:
-        saved = run.policy() if isinstance(run.learner, Planner) else run.learner
-        assert isinstance(saved, Agent | PlannedPolicy)
-        saved.save(arguments.save, run.encoder.names if run.encoder else ())
+        run.save(arguments.save)
     if arguments.json:
         from . import report
 
         _write(arguments.json, json.dumps(report.make(run, env), indent=1) + "\n")
     if arguments.c:
-        _write(arguments.c, run.learner.export_c())
+        _write(arguments.c, run.export_c())
     print(run.text(), end="")
-    words = ("class", "classes") if isinstance(run.learner, Agent) else ("leaf", "leaves")
-    print(_summary(run.leaves, run.interactions, *words))
+    print(_counted(run))
+
+
+def _counted(run: Run) -> str:
+    words = ("class", "classes") if isinstance(run.acting, Agent) else ("leaf", "leaves")
+    return _summary(run.leaves, run.interactions, *words)
 
 
 def _show(file: str) -> None:
+    if is_run(file):
+        run = load(file)
+        print(run.text(), end="")
+        print(_counted(run))
+        return
     if is_policy(file):
         policy, names = read_policy(file)
         print(explain(policy.print("text"), names), end="")
@@ -232,6 +239,12 @@ def _show(file: str) -> None:
     agent = Agent.load(file)
     print(explain(agent.print("text"), names), end="")
     print(_summary(agent.classes, agent.statistics.interactions))
+
+
+def _loaded(file: str) -> Run | Agent | PlannedPolicy:
+    if is_run(file):
+        return load(file)
+    return PlannedPolicy.load(file) if is_policy(file) else Agent.load(file)
 
 
 def _plot(arguments: argparse.Namespace) -> None:
@@ -253,8 +266,7 @@ def _run(parsed: argparse.Namespace) -> int:
     elif parsed.command == "show":
         _show(parsed.agent)
     elif parsed.command == "export":
-        kind: Any = PlannedPolicy if is_policy(parsed.agent) else Agent
-        _write(parsed.c, kind.load(parsed.agent).export_c())
+        _write(parsed.c, _loaded(parsed.agent).export_c())
     else:
         from . import bench
 

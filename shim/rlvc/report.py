@@ -4,9 +4,10 @@
 ``run_gridworld --json`` writes reports, too; ``tools/run_gridworld/REPORT.md`` describes their
 members. A report of :func:`make` has the kind ``"rlvc learn"`` and the members ``seed``,
 ``interactions``, ``classes``, ``depth``, ``last_split_step``, ``memory_bytes``, ``history`` (with
-``mean_return`` in place of ``optimal_cells``), ``names`` (of the bits or components), ``tree``, and
-``warning``: why nothing was learnt, empty if something was. Of a planner it has neither ``depth``
-nor ``last_split_step``, and its tree has no values.
+``mean_return`` in place of ``optimal_cells``), ``names`` (of the bits or components), ``flags``
+(which of them are 0 or 1), ``actions`` (their names, unless they are plain numbers), ``tree``, and
+``warning``: why nothing was learnt, empty if something was. Of a planner or a compact policy it has
+neither ``depth`` nor ``last_split_step``, and its tree has no values.
 The Binary Gridworld adds ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. The Tiled
 Gridworld with an :class:`rlvc.vision.Eye` adds ``maze``, ``cells``, ``cell``, ``objects`` and
 ``tests``.
@@ -17,7 +18,7 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -25,14 +26,11 @@ from . import files
 from .agent.agent import Agent
 from .errors import RunError
 
-if TYPE_CHECKING:
-    from .learning.run import Run
-
 VERSION = 1
 _DRAWS = 8  # percepts of a cell with other distractors, which must all have the same class
 
 
-def _cells(run: Run, env: Any) -> dict[str, Any]:
+def _cells(run: Any, env: Any) -> dict[str, Any]:
     from .envs import ACTIONS, BinaryGridworld
 
     world = getattr(env, "unwrapped", env)
@@ -58,7 +56,7 @@ def _cells(run: Run, env: Any) -> dict[str, Any]:
     }
 
 
-def _seen(run: Run, env: Any) -> dict[str, Any]:
+def _seen(run: Any, env: Any) -> dict[str, Any]:
     """The objects in the cells of the Tiled Gridworld, and the places of the tests' features."""
     from .envs import ACTIONS, TiledGridworld
 
@@ -120,12 +118,19 @@ def _tree_members(learner: Any) -> dict[str, Any]:
     return {"depth": statistics.depth, "last_split_step": statistics.last_split}
 
 
-def make(run: Run, env: Any = None) -> dict[str, Any]:
+def _actions(run: Any) -> dict[str, Any]:
+    """The names of the actions, unless they are the numbers of the tree."""
+    if run.actions.plain():
+        return {}
+    return {"actions": [run.actions.name(index) for index in range(run.actions.count)]}
+
+
+def make(run: Any, env: Any = None) -> dict[str, Any]:
     """Make the report of a run.
 
     Parameters
     ----------
-    run : Run
+    run : rlvc.Run
     env : gymnasium.Env or None
         The environment; a gridworld adds its maze with classes and actions.
 
@@ -150,13 +155,15 @@ def make(run: Run, env: Any = None) -> dict[str, Any]:
         "seed": run.seed,
         "interactions": run.interactions,
         "classes": run.leaves,
-        **_tree_members(run.learner),
+        **_tree_members(run.acting),
         "memory_bytes": run.learner.memory_bytes,
         "warning": run.warning,
         **({} if env is None else {**_cells(run, env), **_seen(run, env)}),
-        "names": run.encoder.names if run.encoder else [],
+        "names": getattr(run.encoder, "names", []),
+        "flags": getattr(run.encoder, "flags", []),
+        **_actions(run),
         "history": history,
-        "tree": run.learner.tree,
+        "tree": run.tree,
     }
 
 

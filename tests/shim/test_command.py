@@ -96,7 +96,7 @@ def test_what_is_learnt_is_written_though_nobody_reads(tmp_path):
     process.stdout.close()
     _, told = process.communicate()
     assert (process.returncode, told) == (141, "")
-    assert rlvc.Agent.load(names[0]).classes == 2
+    assert rlvc.load(names[0]).agent.classes == 2
     assert json.loads(names[1].read_text(encoding="utf-8"))["classes"] == 2
     assert "policy_act" in names[2].read_text(encoding="utf-8")
 
@@ -167,7 +167,7 @@ def test_what_was_learnt_is_kept(fault, tmp_path):
     out, told = process.communicate()
     assert (process.returncode, told) == FAULTS[fault]
     assert "classes after 4" in out
-    assert rlvc.Agent.load(tmp_path / "agent").statistics.interactions in (449, 450)
+    assert rlvc.load(tmp_path / "agent").interactions in (449, 450)
     report = json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))
     assert report["history"][-1]["interactions"] == 400
 

@@ -90,11 +90,8 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
     if isinstance(names, str) or not all(isinstance(name, str) for name in _listed(names)):
         raise ConfigError(f"names: {names!r:.80} is not a list of str")
     snapshot = agent.snapshot()
-    domain = agent.domain
     head = {
-        "bits": domain.bits if isinstance(domain, Bits) else None,
-        "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
-        "thresholds": domain.parameters if isinstance(domain, Thresholds) else None,
+        **described(agent.domain),
         "names": list(names),
         "config": dataclasses.asdict(agent.config),
         "bytes": len(snapshot),
@@ -138,7 +135,7 @@ def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes
     try:
         line, _, snapshot = _unwrapped(content).partition(b"\n")
         head: dict[str, Any] = json.loads(line)
-        domain, config = _domain_of(head), Config(**head["config"])
+        domain, config = domain_of(head), Config(**head["config"])
         names, count = [str(name) for name in head["names"]], head["bytes"]
     except SnapshotError as error:
         raise SnapshotError(f"{file}: {error}") from None
@@ -164,8 +161,17 @@ def _unwrapped(content: bytes) -> bytes:
     return content[magic.end() : -4]
 
 
-def _domain_of(head: dict[str, Any]) -> Domain | None:
-    """Make the domain whose parameters are in a header."""
+def described(domain: Domain) -> dict[str, Any]:
+    """Return the members of a header that say of which domain percepts are."""
+    return {
+        "bits": domain.bits if isinstance(domain, Bits) else None,
+        "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
+        "thresholds": domain.parameters if isinstance(domain, Thresholds) else None,
+    }
+
+
+def domain_of(head: dict[str, Any]) -> Domain | None:
+    """Make the domain whose parameters are in a header; None: it is user-defined."""
     if head["bits"] is not None:
         return Bits(head["bits"])
     if head.get("descriptors") is not None:

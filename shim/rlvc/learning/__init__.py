@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Learning from Gymnasium environments."""
 
-from .encode import Encoder, Numbers, explain
+from .encode import Columns, Encoder, Numbers, explain
 from .run import Record, Run
 
-__all__ = ["Encoder", "Numbers", "Record", "Run", "explain"]
+__all__ = ["Columns", "Encoder", "Numbers", "Record", "Run", "explain"]

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import flag, real
-from ..errors import EnvError, RewardError, SpaceError
+from ..errors import EnvError, RewardError
 
 _OLD = (
     "it has the interface of an old version of Gym: wrap it, for example with Shimmy's "
@@ -43,26 +43,6 @@ def check(env: Any) -> None:
         raise EnvError(f"env: its reset() takes no seed: {_OLD}")
 
 
-def actions(space: Any) -> tuple[int, int]:
-    """Return the number of actions of a space, and the first.
-
-    Parameters
-    ----------
-    space : gymnasium.Space
-
-    Returns
-    -------
-    tuple of int
-    """
-    from gymnasium import spaces
-
-    if not isinstance(space, spaces.Discrete):
-        raise SpaceError(f"an agent needs a finite set of actions, Discrete, not {space}")
-    if not 1 <= space.n <= 255:
-        raise SpaceError(f"{space} has {space.n} actions, more than 255")
-    return int(space.n), int(space.start)
-
-
 def reset(env: Any, **arguments: Any) -> Any:
     """Reset an environment, or a vector of them.
 
@@ -74,43 +54,52 @@ def reset(env: Any, **arguments: Any) -> Any:
 
     Returns
     -------
-    observation
+    observation, dict
+        The first observation, and the info.
     """
     returned = env.reset(**arguments)
     if not isinstance(returned, tuple) or len(returned) != 2 or not isinstance(returned[1], dict):
         raise EnvError(f"reset() returned {returned!r:.80}, expected (observation, info): {_OLD}")
-    return returned[0]
+    return returned
 
 
-def step(env: Any, action: int) -> tuple[Any, float, bool, bool]:
+def step(env: Any, action: Any) -> tuple[Any, float, bool, bool, Any]:
     """Act in an environment.
 
     Parameters
     ----------
     env : gymnasium.Env
-    action : int
+    action : element of its action space
 
     Returns
     -------
-    observation, float, bool, bool
-        The next observation, the reward, terminated, truncated.
+    observation, float, bool, bool, dict
+        The next observation, the reward, terminated, truncated, and the info.
     """
-    observation, reward, terminated, truncated, _ = _five(env.step(action))
+    observation, reward, terminated, truncated, info = returned = _five(env.step(action))
+    if (
+        terminated.__class__ is bool
+        and truncated.__class__ is bool
+        and reward.__class__ in (float, int)
+        and -_native.REWARD_MAX <= reward <= _native.REWARD_MAX
+    ):
+        return returned  # type: ignore[no-any-return]
     return (
         observation,
         _reward("reward", reward),
         flag("terminated", terminated, EnvError),
         flag("truncated", truncated, EnvError),
+        info,
     )
 
 
-def step_all(env: Any, chosen: npt.NDArray[np.int64]) -> tuple[Any, Any, Any, Any, Any]:
+def step_all(env: Any, chosen: npt.NDArray[Any]) -> tuple[Any, Any, Any, Any, Any]:
     """Act in each environment of a vector.
 
     Parameters
     ----------
     env : gymnasium.vector.VectorEnv
-    chosen : ndarray of int64, [n]
+    chosen : ndarray, [n, ...]
 
     Returns
     -------
@@ -120,13 +109,23 @@ def step_all(env: Any, chosen: npt.NDArray[np.int64]) -> tuple[Any, Any, Any, An
     observations, rewards, terminated, truncated, info = _five(env.step(chosen))
 
     def flags(name: str, values: Any) -> npt.NDArray[np.bool_]:
-        each = enumerate(_each(values, name, len(chosen)))
+        if isinstance(values, np.ndarray) and values.dtype == np.bool_ and values.shape == (count,):
+            return values
+        each = enumerate(_each(values, name, count))
         return np.array([flag(f"{name}[{i}]", value, EnvError) for i, value in each])
 
-    each = enumerate(_each(rewards, "rewards", len(chosen)))
+    count = len(chosen)
+    if not (
+        isinstance(rewards, np.ndarray)
+        and rewards.dtype == np.float64
+        and rewards.shape == (count,)
+        and (np.abs(rewards) <= _native.REWARD_MAX).all()
+    ):
+        each = enumerate(_each(rewards, "rewards", count))
+        rewards = np.array([_reward(f"rewards[{i}]", value) for i, value in each])
     return (
         observations,
-        np.array([_reward(f"rewards[{i}]", value) for i, value in each]),
+        rewards,
         flags("terminated", terminated),
         flags("truncated", truncated),
         info,

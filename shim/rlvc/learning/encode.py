@@ -11,13 +11,14 @@ Dict, Tuple         the bits of all parts, in order
 ==================  =====================================================================
 
 If the space contains a Box, percepts are vectors of real numbers (:class:`rlvc.Thresholds`): each
-element of the Box is a component, and each bit of the other parts is a component 0 or 1.
+element of the Box is a component, and each bit of the other parts is a component 0 or 1. A log's
+column of words has one bit for each word.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+import json
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,89 +28,11 @@ from .. import _native
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
-from ..errors import PerceptError, SpaceError
+from ..errors import ConfigError, PerceptError, SpaceError
+from ..words import explain
+from .parts import Part, parts_of
 
-Columns = npt.NDArray[Any]
-
-
-def _binary(starts: Any, widths: Sequence[int]) -> Callable[[Any], Columns]:
-    """From numbers [n, d] to their bits [n, sum(widths)], lowest first."""
-    index = np.repeat(np.arange(len(widths)), widths)
-    shift = np.concatenate([np.arange(width) for width in widths])
-
-    def columns(values: Any) -> Columns:
-        numbers = (np.asarray(values, np.int64) - starts).reshape(-1, len(widths))
-        bits: Columns = (numbers[:, index] >> shift & 1).astype(np.bool_)
-        return bits
-
-    return columns
-
-
-def _width(count: int) -> int:
-    return max(1, int(count - 1).bit_length())
-
-
-class _Part:
-    """A space that has no parts: its path in the observation, and its bits."""
-
-    def __init__(
-        self,
-        path: tuple[Any, ...],
-        names: list[str],
-        columns: Callable[[Any], Columns],
-        shape: tuple[int, ...],
-        accepts: Callable[[Any], bool],
-    ) -> None:
-        self.path = path
-        self.names = names
-        self.columns = columns
-        self.shape = shape
-        self.single = all(size == 1 for size in shape)
-        self.accepts = accepts
-
-    def of(self, observation: Any) -> Any:
-        """Its part of an observation, or of a batch of them."""
-        try:
-            for key in self.path:
-                observation = observation[key]
-        except (KeyError, IndexError, TypeError):
-            raise PerceptError(f"an observation without {_prefix(self.path)!r}") from None
-        return observation
-
-    def encode(self, observation: Any) -> Columns:
-        """The columns of one observation."""
-        value = self.of(observation)
-        try:
-            array = np.asarray(value)
-            if self.single and array.size == 1:
-                array = array.reshape(self.shape)
-            if self.accepts(array):
-                columns: Columns = self.columns(array[None])[0]
-                return columns
-        except (OverflowError, TypeError, ValueError) as error:
-            if isinstance(error, PerceptError):
-                raise
-        where = _prefix(self.path) or "observation"
-        raise PerceptError(f"{where}: {value!r:.80} is not an element of the observation space")
-
-
-def _prefix(path: tuple[Any, ...]) -> str:
-    return ".".join(str(key) for key in path)
-
-
-def _box_part(space: Any, path: tuple[Any, ...]) -> _Part:
-    size = int(np.prod(space.shape, dtype=int))
-    label = _prefix(path) or "x"
-    names = [label] if size == 1 else [f"{label}[{i}]" for i in range(size)]
-
-    def columns(batch: Any) -> Columns:
-        rows = np.asarray(batch, np.float64).reshape(len(batch), -1)
-        bad = np.flatnonzero(np.isnan(rows).any(axis=0))
-        if len(bad):
-            raise PerceptError(f"{names[bad[0]]} is NaN: give a number instead")
-        return rows.clip(-_native.THRESHOLDS_NUMBER_MAX, _native.THRESHOLDS_NUMBER_MAX)
-
-    return _Part(path, names, columns, space.shape, lambda value: value.shape == space.shape)
+__all__ = ["Columns", "Encoder", "Numbers", "explain"]
 
 
 class Numbers:
@@ -124,76 +47,35 @@ class Numbers:
         self.shape = shape
 
 
-def _parts(space: Any, path: tuple[Any, ...]) -> list[_Part]:
+class Columns:
+    """A space of tables: a number or a word in each column; for logs, without Gymnasium.
+
+    An observation is a dict or a row of a table by the names of the columns, or a sequence.
+
+    Parameters
+    ----------
+    columns : dict
+        For each name None, or the words that are in the column.
+    """
+
+    def __init__(self, columns: Mapping[str, Sequence[str] | None]) -> None:
+        self.columns = {
+            str(name): None if words is None else [str(word) for word in words]
+            for name, words in columns.items()
+        }
+
+
+def _parts(space: Any) -> list[Part]:
     if isinstance(space, Numbers):
-        return [_box_part(space, path)]
-    from gymnasium import spaces
-
-    label = _prefix(path)
-    if isinstance(space, spaces.Dict):
-        inner = [((*path, key), sub) for key, sub in space.spaces.items()]
-        return [p for deeper, sub in inner for p in _parts(sub, deeper)]
-    if isinstance(space, spaces.Tuple):
-        return [p for i, sub in enumerate(space.spaces) for p in _parts(sub, (*path, i))]
-    if isinstance(space, spaces.Discrete):
-        width, start = _width(int(space.n)), int(space.start)
-        names = [f"{label or 'number'} bit {bit}" for bit in range(width)]
-        beyond = start + int(space.n)
+        return [Part("reals", (), space.shape)]
+    if isinstance(space, Columns):
         return [
-            _Part(
-                path,
-                names,
-                _binary(start, [width]),
-                (),
-                lambda v: v.dtype.kind in "biu" and start <= int(v) < beyond,
-            )
+            Part("reals", (name,), ())
+            if words is None
+            else Part("word", (name,), (), counts=(len(words),), words=tuple(words))
+            for name, words in space.columns.items()
         ]
-    if isinstance(space, spaces.MultiDiscrete):
-        counts, starts = np.ravel(space.nvec), np.ravel(space.start)
-        widths = [_width(int(count)) for count in counts]
-        names = [
-            f"{label or 'x'}[{i}] bit {bit}"
-            for i, width in enumerate(widths)
-            for bit in range(width)
-        ]
-
-        return [
-            _Part(
-                path,
-                names,
-                _binary(starts, widths),
-                space.shape,
-                lambda v: v.dtype.kind in "biu" and bool(space.contains(v.astype(np.int64))),
-            )
-        ]
-    if isinstance(space, spaces.MultiBinary):
-        size = int(np.prod(space.shape))
-        names = [f"{label}[{i}]" if label else f"bit {i}" for i in range(size)]
-        return [
-            _Part(
-                path,
-                names,
-                lambda v: np.asarray(v).reshape(-1, size).astype(np.bool_),
-                space.shape,
-                lambda v: v.shape == space.shape and bool(((v == 0) | (v == 1)).all()),
-            )
-        ]
-    if isinstance(space, spaces.Box):
-        return [_box_part(space, path)]
-    raise SpaceError(f"{label + ': ' if label else ''}cannot encode {space}")
-
-
-def _has_reals(space: Any) -> bool:
-    """Whether a space contains a Box."""
-    if isinstance(space, Numbers):
-        return True
-    from gymnasium import spaces
-
-    if isinstance(space, spaces.Dict):
-        return any(_has_reals(sub) for sub in space.spaces.values())
-    if isinstance(space, spaces.Tuple):
-        return any(_has_reals(sub) for sub in space.spaces)
-    return isinstance(space, spaces.Box)
+    return parts_of(space, ())
 
 
 class Encoder:
@@ -201,10 +83,13 @@ class Encoder:
 
     Parameters
     ----------
-    space : gymnasium.Space or Numbers
+    space : gymnasium.Space, Numbers or Columns
         Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of these.
     thresholds : int
         Maximum number of cutpoints for each component of real numbers; 0: no limit.
+    names : sequence of str or None
+        A name for each number of an observation, in order: each element of a Box, each Discrete, and
+        so on. None: made from the space.
 
     Attributes
     ----------
@@ -212,11 +97,17 @@ class Encoder:
         Domain of the percepts: :class:`rlvc.Bits` or :class:`rlvc.Thresholds`.
     names : list of str
         Name of each bit or component.
+    flags : list of bool
+        Whether each is 0 or 1.
+    elements : list of (str, list of int)
+        The numbers of an observation: the name of each, and its bits or components.
 
     Raises
     ------
     SpaceError
         The space cannot be encoded, or needs more than 1024 bits or components.
+    ConfigError
+        The number of names is not that of the space.
 
     Notes
     -----
@@ -225,26 +116,76 @@ class Encoder:
 
     domain: Domain
 
-    def __init__(self, space: Any, thresholds: int = 15) -> None:
-        self._made_of = (space, thresholds)
-        self._parts = _parts(space, ())
-        self.names = [name for part in self._parts for name in part.names]
-        size, real = len(self.names), _has_reals(space)
-        if size > (_native.THRESHOLDS_COMPONENTS_MAX if real else _native.BITS_MAX):
+    def __init__(
+        self, space: Any, thresholds: int = 15, names: Sequence[str] | None = None
+    ) -> None:
+        parts = _parts(space)
+        given: list[str | None] = [None] * sum(part.size for part in parts)
+        if names is not None:
+            if isinstance(names, str) or len(names) != len(given):
+                raise ConfigError(
+                    f"names: {names!r:.80}: give a list of {len(given)} names for {space!s:.80}"
+                )
+            given = [str(name) for name in names]
+        self._settle(parts, thresholds, given)
+
+    def _settle(self, parts: list[Part], thresholds: int, given: list[str | None]) -> None:
+        self._parts, self._thresholds, self._given = parts, thresholds, given
+        self.names: list[str] = []
+        self.flags: list[bool] = []
+        self.elements: list[tuple[str, list[int]]] = []
+        at = 0
+        for part in parts:
+            for element, columns in part.described(given[at : at + part.size]):
+                first = len(self.names)
+                self.names += columns
+                self.elements.append((element, list(range(first, len(self.names)))))
+            self.flags += [part.kind != "reals"] * (len(self.names) - len(self.flags))
+            at += part.size
+        size, real = len(self.names), any(part.kind == "reals" for part in parts)
+        if not 1 <= size <= (_native.THRESHOLDS_COMPONENTS_MAX if real else _native.BITS_MAX):
+            kind = "components" if real else "bits"
             raise SpaceError(
-                f"{space} needs {size} {'components' if real else 'bits'}, and a percept has at most "
-                f"{_native.BITS_MAX}: pass an encoder, for pictures an rlvc.vision.Eye"
+                f"the space needs {size} {kind}, and a percept has 1 to {_native.BITS_MAX}: pass an "
+                "encoder, for pictures an rlvc.vision.Eye"
             )
         self.domain = Thresholds(size, thresholds) if real else Bits(size)
+        self._bytes = self.domain.percept_bytes
+        # Of one Discrete every percept is known beforehand.
+        self._table = parts[0].table(real) if len(parts) == 1 and parts[0].path == () else None
+        self._first = parts[0].starts[0] if self._table else 0
+        table = all(
+            len(p.path) == 1 and p.kind in ("reals", "word") and p.shape == () for p in parts
+        )
+        self._columns = [str(part.path[0]) for part in parts] if table else []
+        shifts = np.cumsum([0, *(part.width for part in parts)]).tolist()
+        self._shifted = list(zip(parts, shifts[:-1], strict=True))
+
+    def to_json(self) -> str:
+        """Return what the encoder was made of, as JSON; :meth:`from_json` makes it again."""
+        made_of = {
+            "parts": [part.to_dict() for part in self._parts],
+            "thresholds": self._thresholds,
+            "names": self._given,
+        }
+        return json.dumps(made_of)
+
+    @classmethod
+    def from_json(cls, text: str) -> Encoder:
+        """Make an encoder of the text of :meth:`to_json`."""
+        made_of = json.loads(text)
+        encoder = cls.__new__(cls)
+        parts = [Part.from_dict(part) for part in made_of["parts"]]
+        encoder._settle(parts, made_of["thresholds"], made_of["names"])
+        return encoder
 
     def __getstate__(self) -> dict[str, Any]:
-        """Pickle what it was made of, and the names."""
-        return {"made_of": self._made_of, "names": self.names}
+        """Pickle what it was made of."""
+        return {"made_of": self.to_json()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Make it again."""
-        Encoder.__init__(self, *state["made_of"])
-        self.names = state["names"]
+        self.__dict__ |= Encoder.from_json(state["made_of"]).__dict__
 
     def encode(self, observation: Any) -> bytes:
         """Encode one observation.
@@ -262,8 +203,59 @@ class Encoder:
         PerceptError
             It is not an element of the space, or contains NaN.
         """
-        columns = [part.encode(observation) for part in self._parts]
-        return bytes(self._packed(np.concatenate(columns)[None])[0].tobytes())
+        if self._table is not None:
+            try:
+                index = observation.__index__() - self._first
+                if index >= 0:
+                    record: bytes = self._table[index]
+                    return record
+            except (AttributeError, IndexError, TypeError):
+                pass  # the way below says what is wrong, or takes an array of one
+        if self._columns:
+            observation = self._by_name(observation)
+        if isinstance(self.domain, Bits):
+            code = 0
+            for part, shift in self._shifted:
+                code |= part.code(observation) << shift
+            return bytes(code.to_bytes(self._bytes, "little"))
+        if len(self._parts) == 1:
+            return self._parts[0].record(observation)
+        return b"".join([part.record(observation) for part in self._parts])
+
+    def _by_name(self, observation: Any) -> Any:
+        """Give a row of a table the names of its columns."""
+        if not self._columns or hasattr(observation, "keys"):
+            return observation
+        try:
+            row = list(observation)
+        except TypeError:
+            row = [observation]
+        if len(row) != len(self._columns):
+            raise PerceptError(
+                f"observation: {observation!r:.80} has {len(row)} elements, expected "
+                f"{', '.join(self._columns)}"
+            )
+        return dict(zip(self._columns, row, strict=True))
+
+    def is_batch(self, observation: Any) -> bool:
+        """Whether this is a batch of observations, and not one.
+
+        Parameters
+        ----------
+        observation : element of the space, or arrays of n of them
+
+        Returns
+        -------
+        bool
+        """
+        part = self._parts[0]
+        if self._columns and not hasattr(observation, "keys"):
+            return np.ndim(observation[0]) > 0  # rows of a table
+        try:
+            value = part.of(observation)
+            return np.ndim(value) > len(part.shape) and (part.size > 1 or np.shape(value) != (1,))
+        except (PerceptError, ValueError):
+            return False
 
     def encode_many(self, observations: Any) -> npt.NDArray[Any]:
         """Encode a batch as vector environments return it: arrays [n, ...], in dicts or tuples.
@@ -276,18 +268,36 @@ class Encoder:
         -------
         ndarray, [n, *percept_shape] of the domain
         """
+        if self._columns and not hasattr(observations, "keys"):
+            rows = zip(*(self._by_name(row).values() for row in observations), strict=True)
+            observations = dict(zip(self._columns, rows, strict=True))
         try:
-            columns = [part.columns(np.asarray(part.of(observations))) for part in self._parts]
-        except (OverflowError, TypeError, ValueError) as error:
+            columns = [part.columns(part.of(observations)) for part in self._parts]
+            joined = columns[0] if len(columns) == 1 else np.concatenate(columns, axis=1)
+        except (IndexError, OverflowError, TypeError, ValueError) as error:
             if isinstance(error, PerceptError):
                 raise
             raise PerceptError(f"a batch that is not of the space: {error}") from error
-        return self._packed(np.concatenate(columns, axis=1))
-
-    def _packed(self, columns: Columns) -> npt.NDArray[Any]:
         if isinstance(self.domain, Bits):
-            return np.packbits(columns, axis=1, bitorder="little")
-        return columns.astype(np.float32)
+            return np.packbits(joined.astype(np.bool_), axis=1, bitorder="little")
+        return np.ascontiguousarray(joined, np.float32)
+
+    def values(self, percept: Any) -> list[float]:
+        """Return the bits or components of a percept.
+
+        Parameters
+        ----------
+        percept : bytes or ndarray
+
+        Returns
+        -------
+        list of float
+        """
+        if isinstance(self.domain, Bits):
+            raw = np.frombuffer(self.domain.pack(percept), np.uint8)
+            bits = np.unpackbits(raw, bitorder="little")[: self.domain.bits]
+            return [float(bit) for bit in bits]
+        return [float(value) for value in np.frombuffer(self.domain.pack(percept), np.float32)]
 
     def explain(self, text: str) -> str:
         """Replace ``bit N`` and ``x[N]`` by the name of the bit or component.
@@ -301,24 +311,4 @@ class Encoder:
         -------
         str
         """
-        return explain(text, self.names)
-
-
-def explain(text: str, names: Sequence[str]) -> str:
-    """Replace ``bit N`` and ``x[N]`` in a text by the name number N.
-
-    Parameters
-    ----------
-    text : str
-    names : sequence of str
-
-    Returns
-    -------
-    str
-    """
-
-    def name(match: re.Match[str]) -> str:
-        index = int(match[1] or match[2])
-        return names[index] if index < len(names) else match[0]
-
-    return re.sub(r"\bbit (\d+)\b|\bx\[(\d+)\]", name, text)
+        return explain(text, self.names, self.flags)

@@ -8,14 +8,25 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import EnvError
+from ..errors import ConfigError, EnvError
 from . import boundary
+from .actions import Actions
 
 
 class Environment:
-    """A Gymnasium environment or a vector of them, through one interface."""
+    """A Gymnasium environment or a vector of them, through one interface.
 
-    def __init__(self, env: Any, seed: int) -> None:
+    Attributes
+    ----------
+    current : observation, or a batch of them
+        What was seen last.
+    masks : ndarray of bool, [n, actions], or None
+        Which actions the environment allows now; None: all.
+    dead : ndarray of bool, [n]
+        Environments of a vector whose next step only resets them.
+    """
+
+    def __init__(self, env: Any) -> None:
         boundary.check(env)
         self.env = env
         self.count = int(getattr(env, "num_envs", 0))
@@ -25,12 +36,41 @@ class Environment:
             env.single_observation_space if self.vector else env.observation_space
         )
         self.action_space = env.single_action_space if self.vector else env.action_space
-        self.actions, self.start = boundary.actions(self.action_space)
         mode = str(env.metadata.get("autoreset_mode", "")) if self.vector else ""
         self.same_step = "SAME" in mode.upper()
         self.manual = "DISABLED" in mode.upper()
-        self.current = boundary.reset(env, seed=seed)
         self.dead = np.zeros(self.count, np.bool_)
+        self.masks: npt.NDArray[np.bool_] | None = None
+        self.current: Any = None
+
+    def start(self, actions: Actions, seed: int | None) -> None:
+        """Reset the environment.
+
+        Parameters
+        ----------
+        actions : Actions
+            What the indices mean that it is stepped by.
+        seed : int or None
+            None: its random numbers go on.
+        """
+        self.actions = actions
+        if self.vector and actions.hold > 1:
+            raise ConfigError("hold: needs a single environment, not a vector")
+        self._table = [actions.of(index) for index in range(actions.count)]
+        self.dead = np.zeros(self.count, np.bool_)
+        self._see(*boundary.reset(self.env, **({} if seed is None else {"seed": seed})))
+
+    def _see(self, observation: Any, info: Any) -> None:
+        self.current = observation
+        mask = info.get("action_mask") if isinstance(info, dict) else None
+        if mask is None and isinstance(observation, dict):
+            mask = observation.get("action_mask")
+        if mask is None:
+            self.masks = None
+            return
+        masks = np.asarray(mask).reshape(self.count, -1)
+        fits = masks.shape[1] == self.actions.count and masks.dtype != object
+        self.masks = masks.astype(np.bool_) if fits else None
 
     def split(self, batch: Any) -> list[Any]:
         """Return the observations of a batch as a list."""
@@ -46,29 +86,54 @@ class Environment:
             raise EnvError(f"observations: {len(observations)}, expected {self.count}")
         return observations
 
-    def step(self, actions: npt.NDArray[Any]) -> tuple[list[Any], Any, Any, Any]:
-        """Step every environment; return s', rewards, terminated and truncated.
+    def step(self, index: int) -> tuple[Any, float, bool, bool]:
+        """Step a single environment by an action, for as long as it is held.
 
-        The caller leaves out environments that were ``dead`` before: their step only reset them.
+        Returns
+        -------
+        observation, float, bool, bool
+            What it led to, the sum of the rewards, terminated and truncated. If the episode ended,
+            the environment is reset: ``current`` is the first observation of the next.
         """
-        actions = actions.astype(np.int64) + self.start
-        if not self.vector:
-            following, *rest = boundary.step(self.env, int(actions[0]))
-            over = rest[1] or rest[2]
-            self.current = boundary.reset(self.env) if over else following
-            reward, terminated, truncated = (np.array([value]) for value in rest)
-            return [following], reward, terminated, truncated
-        following, rewards, terminated, truncated, info = boundary.step_all(self.env, actions)
+        actions = self.actions
+        following, reward, terminated, truncated, info = boundary.step(
+            self.env, self._table[index] if actions.table is None else actions.of(index)
+        )
+        for _ in range(actions.hold - 1):
+            if terminated or truncated:
+                break
+            following, more, terminated, truncated, info = boundary.step(
+                self.env, actions.of(index)
+            )
+            reward += more
+        if terminated or truncated:
+            self._see(*boundary.reset(self.env))
+        elif info or self.masks is not None or isinstance(following, dict):
+            self._see(following, info)
+        else:
+            self.current = following
+        return following, reward, terminated, truncated
+
+    def step_all(self, indices: npt.NDArray[Any]) -> tuple[Any, Any, Any, Any]:
+        """Step every environment of a vector; return s', rewards, terminated and truncated.
+
+        s' is a batch, or a list of observations if one is not in the batch. The caller leaves out
+        environments that were ``dead`` before: their step only reset them.
+        """
+        chosen = self.actions.of_many(indices)
+        following, rewards, terminated, truncated, info = boundary.step_all(self.env, chosen)
         over = terminated | truncated
-        reached = self.split(following)
+        reached = following
         if self.same_step and over.any():
             if not isinstance(info, dict) or "final_obs" not in info:
                 raise EnvError("info has no final_obs, which same-step autoreset must give")
+            reached = self.split(following)
             for i in np.flatnonzero(over):
                 reached[i] = info["final_obs"][i]
         elif self.manual and over.any():
-            following = boundary.reset(self.env, options={"reset_mask": over})
+            reached = self.split(following)  # the environments may write over the batch
+            following, info = boundary.reset(self.env, options={"reset_mask": over})
         elif not self.same_step:
             self.dead = over
-        self.current = following
+        self._see(following, info)
         return reached, rewards, terminated, truncated

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
 from ..agent.agent import Agent
 from ..agent.config import Config
+from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..checks import whole
 from ..domains.bits import Bits
@@ -18,9 +19,11 @@ from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
 from ..errors import ConfigError, Error
 from . import planning
+from .actions import Actions, actions_of
 from .encode import Encoder
 from .environment import Environment
-from .interact import Interaction, collect, packed
+from .interact import Interaction, collect
+from .names import known_names
 from .run import Record, Run
 
 if TYPE_CHECKING:
@@ -34,7 +37,7 @@ def _bar(total: int, wanted: bool) -> Any:
     if not wanted:
         return None
     try:
-        from tqdm import tqdm
+        from tqdm.auto import tqdm
     except ImportError:
         raise ImportError("a progress bar needs tqdm: pip install 'rlvc[gym]'") from None
     return tqdm(total=total, unit=" interactions")
@@ -43,7 +46,8 @@ def _bar(total: int, wanted: bool) -> Any:
 def _note(run: Run, learner: Interaction, splits: int, bar: Any) -> None:
     mean = float(np.mean(learner.returns)) if learner.returns else float("nan")
     step, leaves = len(run.history) + 1, run.leaves
-    run.history.append(Record(step, learner.done, leaves, splits, len(learner.returns), mean))
+    done = learner.before + learner.done
+    run.history.append(Record(step, done, leaves, splits, len(learner.returns), mean))
     learner.returns = []
     if bar is not None:
         bar.update(learner.done - bar.n)
@@ -100,11 +104,11 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
         raise ConfigError(f"no such field: {error}") from None
 
 
-def _method(wanted: str | None, domain: Domain, stream: Environment) -> str:
+def _method(wanted: str | None, domain: Domain, stream: Environment, actions: int) -> str:
     """Choose the method: as wanted, or a planner where it can learn."""
     if wanted not in (None, *get_args(Method)):
         raise ConfigError(f"method: {wanted!r:.80} is not one of {', '.join(get_args(Method))}")
-    why = planning.refusal(domain, stream)
+    why = planning.refusal(domain, actions)
     if wanted == "planner" and why:
         raise ConfigError(f"method: {why}")
     if wanted == "classes" or why:
@@ -125,9 +129,13 @@ def learn(
     every: int | None = None,
     seed: int | None = None,
     thresholds: int = 15,
+    names: Sequence[str] | None = None,
+    bins: int | Sequence[int] | None = None,
+    hold: int = 1,
     method: Method | None = None,
     progress: bool = False,
-    callback: Callable[[Run], object] | None = None,
+    callback: Callable[[Run], object] | Sequence[Callable[[Run], object]] | None = None,
+    run: Run | None = None,
     **config: Any,
 ) -> Run:
     """Learn from an environment: on bits by classes (section 4.2.1), on real numbers by a planner.
@@ -135,7 +143,9 @@ def learn(
     Parameters
     ----------
     env : gymnasium.Env or gymnasium.vector.VectorEnv
-        The actions must be Discrete; :mod:`rlvc.learning.encode` lists the spaces of observations.
+        :mod:`rlvc.learning.encode` lists the spaces of observations, :mod:`rlvc.learning.actions`
+        those of actions. If its info or observation has an ``action_mask``, only actions that it
+        allows are taken.
     interactions : int
         Number of interactions, at least 1.
     encoder : object or None
@@ -149,6 +159,14 @@ def learn(
         seed.
     thresholds : int
         Maximum number of cutpoints for each element of a Box in one class; 0: no limit.
+    names : sequence of str or None
+        A name for each number of an observation, for trees and figures. None: from the space, or
+        known ones of Gymnasium's classic tasks.
+    bins : int, sequence of int or None
+        If actions are a Box: into how many numbers each element is divided, from low to high.
+    hold : int
+        For how many steps of the environment an action is taken; the rewards are summed. Such a
+        decision is one interaction.
     method : {"planner", "classes"} or None
         How to learn. classes: the loop of section 4.2.1, with an :class:`rlvc.Agent`. planner: an
         :class:`rlvc.Planner`, which learns small trees on real numbers from one environment; it
@@ -156,8 +174,11 @@ def learn(
         percepts are real numbers, at most 64, and there are 2 to 64 actions; else classes.
     progress : bool
         Whether to show a progress bar with leaves, mean return and splits.
-    callback : callable or None
-        Called with the run after each learning step. Learning ends if it returns True.
+    callback : callable, sequence of callables, or None
+        Called with the run after each learning step; :mod:`rlvc.learning.callbacks` has some.
+        Learning ends if one returns True.
+    run : Run or None
+        A run to go on with: it keeps its learner, encoder, actions and config.
     **config
         Fields of :class:`Config`, or with a planner of :class:`PlannerConfig`. Defaults that differ:
         ``capacity`` holds all interactions (at most a million) and, of an agent, ``classes`` is 512,
@@ -171,7 +192,7 @@ def learn(
     Raises
     ------
     SpaceError
-        The actions are not Discrete, or the observations cannot be encoded.
+        The actions are not finite, or the observations cannot be encoded.
     ConfigError
         A field of the config, ``interactions``, ``every`` or ``method`` is out of range; or percepts
         are real numbers, ``method`` is None and ``env`` is a vector.
@@ -189,28 +210,25 @@ def learn(
     if seed is None:
         seed = int(np.random.SeedSequence().generate_state(1)[0])
     seed = whole("seed", seed, 0, 2**63 - 1)
-    if callback is not None and not callable(callback):
-        raise ConfigError(f"callback: {callback!r:.80} is not a function")
-    stream = Environment(env, seed)
-    if stream.vector and config.get("criterion") == "returns":
-        raise ConfigError("criterion: returns needs a single environment, not a vector")
-    learner = Interaction(stream, interactions, every)
-    if encoder is None:
-        encoder = Encoder(stream.observation_space, thresholds)
-    domain = domain_of(encoder)
-    fields = (stream.actions, interactions, seed % 2**32, config)
-    made: Agent | Planner
-    if _method(method, domain, stream) == "planner":
-        assert isinstance(domain, Thresholds)
-        made = Planner(domain, planning.default_config(*fields))
+    calls = _callbacks(callback)
+    stream = Environment(env)
+    if run is not None:
+        _need_same(run, stream, [encoder, names, bins, method, *config.values()], hold)
     else:
-        made = Agent(domain, default_config(*fields))
-    run = Run(made, encoder, seed, stream.start)
+        actions = actions_of(stream.action_space, bins, hold)
+        if encoder is None:
+            known = names if names is not None else known_names(env, stream.observation_space)
+            encoder = Encoder(stream.observation_space, thresholds, known)
+        run = _begun(stream, interactions, seed, encoder, actions, method, config)
+    stream.start(run.actions, seed)
+    run.small = run.compaction = None
+    learner = Interaction(stream, interactions, every, run.interactions)
     bar = _bar(interactions, progress)
     try:
         for splits in _steps(run, learner):
             _note(run, learner, splits, bar)
-            if callback is not None and callback(run) is True:
+            answers = [call(run) for call in calls]  # all are called
+            if any(answer is True for answer in answers):
                 break
     except KeyboardInterrupt:
         run.interrupted = True
@@ -221,6 +239,51 @@ def learn(
         if bar is not None:
             bar.close()
     return run
+
+
+def _callbacks(callback: Any) -> list[Callable[[Run], object]]:
+    """The functions to call, as a list."""
+    calls = list(callback) if isinstance(callback, list | tuple) else [callback]
+    calls = [call for call in calls if call is not None]
+    for call in calls:
+        if not callable(call):
+            raise ConfigError(f"callback: {call!r:.80} is not a function")
+    return calls
+
+
+def _need_same(run: Run, stream: Environment, given: list[Any], hold: int) -> None:
+    """Raise ConfigError if a run cannot go on in an environment, or is given other settings."""
+    if any(value is not None for value in given) or hold not in (1, run.actions.hold):
+        raise ConfigError("run: it keeps its encoder, actions, method and config: leave them out")
+    if isinstance(run.learner, PlannedPolicy):
+        raise ConfigError("run: a planner's copy has its policy only, and cannot learn on")
+    if run.encoder is None:
+        raise ConfigError("run: it learnt from percepts, and has no encoder for observations")
+    if stream.vector and isinstance(run.learner, Planner):
+        raise ConfigError("env: a planner learns from one environment, not from a vector")
+
+
+def _begun(
+    stream: Environment,
+    interactions: int,
+    seed: int,
+    encoder: Any,
+    actions: Actions,
+    method: Method | None,
+    config: dict[str, Any],
+) -> Run:
+    """Make a run that has learnt nothing yet."""
+    if stream.vector and config.get("criterion") == "returns":
+        raise ConfigError("criterion: returns needs a single environment, not a vector")
+    domain = domain_of(encoder)
+    fields = (actions.count, interactions, seed % 2**32, config)
+    made: Agent | Planner
+    if _method(method, domain, stream, actions.count) == "planner":
+        assert isinstance(domain, Thresholds)
+        made = Planner(domain, planning.default_config(*fields))
+    else:
+        made = Agent(domain, default_config(*fields))
+    return Run(made, encoder, seed, actions)
 
 
 def _explain(error: BaseException, run: Run, learner: Interaction) -> None:
@@ -240,7 +303,5 @@ def _steps(run: Run, learner: Interaction) -> Iterator[int]:
         for _ in planning.episodes(run, learner):
             yield 0
         return
-    if not learner.stream.vector:
-        run.agent.begin(packed(run.encoder, [learner.stream.current], run.agent.domain)[0])
     for _ in collect(run, learner):
         yield run.agent.learn().splits

@@ -6,28 +6,27 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
-
 from .. import _native
 from ..agent.config import Config
 from ..agent.planner_config import PlannerConfig
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
 from ..errors import ConfigError
-from .environment import Environment
 from .interact import Interaction
+from .masks import best_allowed
 from .run import Run
 
 _CAPACITY_MIN, _CAPACITY_MAX = 2000, 1_000_000
 
 
-def refusal(domain: Domain, stream: Environment) -> str:
+def refusal(domain: Domain, actions: int) -> str:
     """Why a planner cannot learn this; empty if it can.
 
     Parameters
     ----------
     domain : Domain
-    stream : Environment
+    actions : int
+        Number of actions.
 
     Returns
     -------
@@ -37,7 +36,7 @@ def refusal(domain: Domain, stream: Environment) -> str:
         return "a planner needs percepts of real numbers"
     if domain.components > _native.PLANNER_COMPONENTS_MAX:
         return f"a planner has at most {_native.PLANNER_COMPONENTS_MAX} components"
-    if not 2 <= stream.actions <= _native.PLANNER_ACTIONS_MAX:
+    if not 2 <= actions <= _native.PLANNER_ACTIONS_MAX:
         return f"a planner has 2 to {_native.PLANNER_ACTIONS_MAX} actions"
     return ""
 
@@ -74,17 +73,20 @@ def episodes(run: Run, learner: Interaction) -> Iterator[None]:
         Of a planner.
     learner : Interaction
     """
-    planner, steps = run.planner, 0
-    planner.begin(run.percept(learner.stream.current))
+    planner, steps, stream = run.planner, 0, learner.stream
+    planner.begin(run.percept(stream.current))
     while learner.done < learner.interactions:
         action = planner.act()
-        _, _, rewards, reached, terminated, truncated = learner.transition(np.array([action]))
-        ends = bool(terminated[0]), bool(truncated[0])
-        planner.observe(action, float(rewards[0]), run.percept(reached[0]), *ends)
+        if stream.masks is not None:
+            action = best_allowed(run, b"", action, stream.masks[0])
+        reached, reward, *ends = learner.step(action)
+        percept = run.percept(reached)
+        run.seen.add(percept.tobytes())
+        planner.observe(action, reward, percept, *ends)
         steps += 1
         if any(ends) or steps == planner.config.horizon:
             steps = 0
             planner.learn()
             yield
         if any(ends):
-            planner.begin(run.percept(learner.stream.current))
+            planner.begin(run.percept(stream.current))

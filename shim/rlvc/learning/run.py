@@ -4,10 +4,14 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
-from typing import TYPE_CHECKING, Any
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from .. import _native
 from ..agent.agent import Agent
@@ -15,10 +19,13 @@ from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.policy import Policy
 from ..agent.results import PlannerStatistics
-from ..checks import whole
 from ..errors import RunError
-from . import boundary
+from ..files import replace
+from . import explanation
+from .actions import Actions
 from .encode import Encoder
+from .evaluation import Evaluation, evaluate
+from .explanation import Explanation, Seen
 
 if TYPE_CHECKING:
     import gymnasium
@@ -72,32 +79,48 @@ class Record:
 
 
 class Run:
-    """The result of :func:`rlvc.learn` or :func:`rlvc.learn_from`.
+    """The result of :func:`rlvc.learn` or :func:`rlvc.learn_from`: a policy and all that made it.
+
+    What is printed, drawn, explained, exported and saved is the policy that acts.
 
     Attributes
     ----------
     learner : Agent, Planner or PlannedPolicy
-        What learnt: a planner on real numbers, else an agent. A copy of a planner's run, pickled or
-        not, has only the planner's policy: it acts, but does not learn on.
+        What learnt: a planner on real numbers, else an agent. A copy of a planner's run, pickled,
+        saved or not, has only the planner's policy: it acts, but does not learn on.
     encoder : Encoder or None
         None if there are no observations, only percepts.
+    actions : Actions
+        The actions of the environment, by their numbers in the tree.
     history : list of Record
         One record for each learning step; of a planner one for each episode.
     seed : int
     interrupted : bool
         Whether Ctrl-C ended learning.
+    small : Policy or None
+        What :meth:`compact` made; it acts instead of the learner.
+    seen : Seen
+        Some of the percepts, for :meth:`importances`.
     """
 
     def __init__(
-        self, learner: Agent | Planner, encoder: Encoder | None, seed: int, start: int = 0
+        self,
+        learner: Agent | Planner | PlannedPolicy,
+        encoder: Encoder | None,
+        seed: int,
+        actions: Actions,
     ) -> None:
-        self.learner: Agent | Planner | PlannedPolicy = learner
+        self.learner = learner
         self._kept: tuple[int, str] | None = None  # of a copy: interactions and warning
         self.encoder = encoder
         self.seed = seed
+        self.actions = actions
         self.history: list[Record] = []
         self.interrupted = False
-        self._start = start
+        self.small: Policy | None = None
+        self.seen = Seen()
+        self.compaction: dict[str, Any] | None = None  # the arguments of compact()
+        self._tables: tuple[int, Any, Any] | None = None
 
     @property
     def agent(self) -> Agent:
@@ -116,12 +139,17 @@ class Run:
         return self.learner
 
     @property
+    def acting(self) -> Agent | Planner | Policy:
+        """What acts: the compact policy if there is one, else the learner."""
+        return self.learner if self.small is None else self.small
+
+    @property
     def leaves(self) -> int:
         """Leaves of the tree that acts: of an agent its classes."""
-        learner = self.learner
-        if isinstance(learner, PlannedPolicy):
-            return learner.info.leaves
-        return learner.classes if isinstance(learner, Agent) else learner.statistics.leaves
+        acting = self.acting
+        if isinstance(acting, Policy):
+            return acting.info.leaves
+        return acting.classes if isinstance(acting, Agent) else acting.statistics.leaves
 
     @property
     def interactions(self) -> int:
@@ -143,17 +171,7 @@ class Run:
             return ""
         return "one class: no difference in rewards or in what follows was found"
 
-    def policy(self) -> Policy:
-        """Make a policy by itself, to export: that of the planner, or the agent's ``compact()``.
-
-        Returns
-        -------
-        Policy
-        """
-        learner = self.learner
-        if isinstance(learner, PlannedPolicy):
-            return learner
-        return learner.policy() if isinstance(learner, Planner) else learner.compact()
+    # -------------------------------------------------------------- acting
 
     def percept(self, observation: Any) -> Any:
         """Encode an observation; of a planner, numbers beyond its range are clipped.
@@ -173,53 +191,99 @@ class Run:
         most = _native.PLANNER_NUMBER_MAX
         return np.frombuffer(self.learner.domain.pack(percept), np.float32).clip(-most, most)
 
-    def act(self, observation: Any, policy: Policy | None = None) -> int:
-        """Return the action of the learnt policy.
+    def percepts(self, observations: Any) -> npt.NDArray[Any]:
+        """Encode a batch of observations: ndarray, [n, *percept_shape]."""
+        if isinstance(self.encoder, Encoder):
+            rows = self.encoder.encode_many(observations)
+        elif self.encoder is not None:
+            domain = self.learner.domain
+            flat = b"".join(self.encoder.encode(observation) for observation in observations)
+            rows = np.frombuffer(flat, domain.percept_dtype).reshape(-1, *domain.percept_shape)
+        else:
+            rows = np.asarray(observations)
+        if isinstance(self.learner, Agent):
+            return rows
+        most = np.float32(_native.PLANNER_NUMBER_MAX)
+        return np.ascontiguousarray(rows.clip(-most, most), np.float32)
+
+    def index(self, percept: Any) -> int:
+        """Return the number of the action at a percept."""
+        acting = self.acting
+        if isinstance(acting, Agent):
+            return int(acting.predict(percept).action)
+        return int(acting.act(percept) if isinstance(acting, Policy) else acting.predict(percept))
+
+    def indices(self, percepts: npt.NDArray[Any]) -> npt.NDArray[np.uint32]:
+        """Return the numbers of the actions at percepts [n, *percept_shape]."""
+        acting = self.acting
+        if isinstance(acting, Agent):
+            return np.asarray(acting.predict(percepts).action)
+        found = acting.act(percepts) if isinstance(acting, Policy) else acting.predict(percepts)
+        return np.asarray(found)
+
+    def predict(self, observation: Any) -> Any:
+        """Return the action of the learnt policy at an observation, or at each of a batch.
+
+        Parameters
+        ----------
+        observation : element of the environment's space, or arrays of n of them
+            A batch is what a vector environment returns: arrays [n, ...], in dicts or tuples; of a
+            log's columns a table, or rows.
+
+        Returns
+        -------
+        int or ndarray, or ndarray [n, ...] of them
+            Elements of the environment's action space.
+
+        Raises
+        ------
+        PerceptError
+            It is not an element of the space, or contains NaN.
+        """
+        if isinstance(self.encoder, Encoder) and self.encoder.is_batch(observation):
+            return self.actions.of_many(self.indices(self.percepts(observation)))
+        return self.act(observation)
+
+    def act(self, observation: Any) -> Any:
+        """Return the action at one observation: as :meth:`predict`, which also takes batches.
 
         Parameters
         ----------
         observation : element of the environment's space
-        policy : Policy or None
-            A result of :meth:`policy` to use instead.
 
         Returns
         -------
-        int
-            An element of the action space: ``Discrete.start`` is added.
+        int or ndarray
         """
-        percept = self.percept(observation)
-        if policy is not None:
-            action = policy.act(percept)
-        elif isinstance(self.learner, PlannedPolicy):
-            action = self.learner.act(percept)
-        elif isinstance(self.learner, Planner):
-            action = self.learner.predict(percept)
-        else:
-            action = self.learner.predict(percept).action
-        return int(action) + self._start
+        return self.actions.of(self.index(self.percept(observation)))
+
+    def tables(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.uint32]]:
+        """Return Q and the number of samples of each class and action of an agent."""
+        step = self.agent.statistics.step
+        if self._tables is None or self._tables[0] != step:
+            self._tables = (step, self.agent.q, self.agent.samples)
+        return self._tables[1:]
 
     def evaluate(
         self,
-        env: gymnasium.Env[Any, Any],
+        env: gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any],
         episodes: int = 100,
         seed: int = 0,
-        policy: Policy | None = None,
-    ) -> float:
-        """Play episodes with the learnt policy.
+    ) -> Evaluation:
+        """Play episodes with the learnt policy, without exploring.
 
         Parameters
         ----------
-        env : gymnasium.Env
+        env : gymnasium.Env or gymnasium.vector.VectorEnv
+            Of a vector, each environment plays its share of the episodes.
         episodes : int
         seed : int
             Seed of the first reset.
-        policy : Policy or None
-            A result of :meth:`policy` to use instead.
 
         Returns
         -------
-        float
-            The mean undiscounted return of an episode.
+        Evaluation
+            Its ``mean``, ``std``, ``returns`` and ``lengths``.
 
         Raises
         ------
@@ -227,42 +291,221 @@ class Run:
             ``episodes`` is not at least 1, or ``seed`` not at least 0.
         EnvError, RewardError, PerceptError
             The environment returned something else than Gymnasium's interface says.
-        """
-        boundary.check(env)
-        episodes = whole("episodes", episodes, 1, 2**53)
-        seed = whole("seed", seed, 0, 2**63 - 1)
-        total = 0.0
-        for episode in range(episodes):
-            observation = boundary.reset(env, seed=seed if episode == 0 else None)
-            over = False
-            while not over:
-                action = self.act(observation, policy)
-                observation, reward, terminated, truncated = boundary.step(env, action)
-                total += reward
-                over = terminated or truncated
-        return total / episodes
 
-    def text(self) -> str:
-        """Return the tree as text, with tests in words of the environment's space.
+        Notes
+        -----
+        Each action is held as in learning. Where the environment's info or observation has an
+        ``action_mask``, only actions that it allows are taken.
+        """
+        return evaluate(self, env, episodes, seed)
+
+    # -------------------------------------------------------------- going on
+
+    def learn(self, env: Any, interactions: int, **arguments: Any) -> Run:
+        """Learn on: as :func:`rlvc.learn` with ``run=self``.
+
+        Parameters
+        ----------
+        env : gymnasium.Env or gymnasium.vector.VectorEnv
+        interactions : int
+            How many more.
+        **arguments
+            ``every``, ``seed``, ``progress`` and ``callback`` of :func:`rlvc.learn`.
+
+        Returns
+        -------
+        Run
+            This one.
+        """
+        from .learn import learn
+
+        return learn(env, interactions, run=self, **arguments)
+
+    def compact(self, tolerance: float | None = None, **limits: Any) -> Run:
+        """Let the smallest policy act that acts as well on all percepts in the replay buffer.
+
+        Parameters
+        ----------
+        tolerance : float or None
+        **limits
+            As of :meth:`rlvc.Agent.compact`.
+
+        Returns
+        -------
+        Run
+            This one. Its ``small`` is the policy; learning on removes it. A planner's policy is small
+            already.
+        """
+        if isinstance(self.learner, Agent):
+            self.small = self.learner.compact(tolerance, **limits)
+            self.compaction = {"tolerance": tolerance, **limits}
+        return self
+
+    def policy(self) -> Policy:
+        """Make a policy by itself: that of the planner, or the agent's ``compact()``.
+
+        Returns
+        -------
+        Policy
+        """
+        acting = self.acting
+        if isinstance(acting, Policy):
+            return acting
+        return acting.policy() if isinstance(acting, Planner) else acting.compact()
+
+    def save(self, file: str | Path) -> None:
+        """Write the run to a file: :func:`rlvc.load` reads it.
+
+        Parameters
+        ----------
+        file : str or Path
+
+        Raises
+        ------
+        StoreError
+            The file cannot be written, or is a link, a folder, a FIFO or a device.
+
+        Notes
+        -----
+        The learner, the encoder, the actions and the history are in the file, bit for bit; of an
+        encoder by the caller only that there is one. A failure leaves the old file.
+        """
+        from .store import write
+
+        write(self, file)
+
+    # -------------------------------------------------------------- showing
+
+    def in_words(self, text: str) -> str:
+        """Replace the numbers of bits, components and actions in a text by their names."""
+        if self.encoder is not None and hasattr(self.encoder, "explain"):
+            text = self.encoder.explain(text)
+        if self.actions.plain():
+            return text
+        return re.sub(r"\baction (\d+)\b", lambda match: self.actions.name(int(match[1])), text)
+
+    @property
+    def tree(self) -> dict[str, Any]:
+        """The tree that acts, as data; ``core/SPEC.md`` ("JSON of the tree") describes it."""
+        tree: dict[str, Any] = json.loads(self.acting.print("json"))
+        return tree
+
+    def text(self, form: Literal["text", "dot"] = "text") -> str:
+        """Return the tree, with tests and actions in words of the environment's spaces.
+
+        Parameters
+        ----------
+        form : {"text", "dot"}
 
         Returns
         -------
         str
-            If nothing was learnt, the last line is the :attr:`warning`.
+            If nothing was learnt, the last line of a text is the :attr:`warning`.
         """
-        text = self.learner.print("text")
-        if self.encoder:
-            text = self.encoder.explain(text)
-        return f"{text}{self.warning}\n" if self.warning else text
+        text = self.in_words(self.acting.print(form))
+        return f"{text}{self.warning}\n" if self.warning and form == "text" else text
+
+    def explain(self, observation: Any) -> Explanation:
+        """Say why the policy acts as it does at an observation.
+
+        Parameters
+        ----------
+        observation : element of the environment's space
+
+        Returns
+        -------
+        Explanation
+            The path through the tree, test by test, with the values; print it.
+        """
+        return explanation.explain(self, observation)
+
+    def importances(self) -> dict[str, float]:
+        """Measure how much each number of an observation matters to the policy.
+
+        Returns
+        -------
+        dict
+            For each name, the largest first, in how many of a thousand percepts that were seen the
+            action becomes another if this number is taken from another percept: a share in [0, 1].
+        """
+        return explanation.importances(self)
+
+    def export_c(self, file: str | Path | None = None, name: str = "policy") -> str:
+        """Write the policy as a C99 header for a controller.
+
+        Parameters
+        ----------
+        file : str, Path or None
+            None: it is only returned.
+        name : str
+            A C identifier of at most 48 characters. The header defines ``NAME_act(percept)``, and a
+            table ``NAME_actions`` if actions are no plain numbers from 0 on.
+
+        Returns
+        -------
+        str
+            The text of the header.
+
+        Notes
+        -----
+        Compiled with ``-ffp-contract=off``, it acts as :meth:`predict`, bit for bit;
+        :meth:`rlvc.Agent.export_c` says what a percept is in C.
+        """
+        from .export import header
+
+        text = header(self, name)
+        if file is not None:
+            replace(file, text.encode())
+        return text
+
+    def plot(self, kind: str = "tree", file: str | Path | None = None, **arguments: Any) -> Any:
+        """Draw the run: see :mod:`rlvc.plot`.
+
+        Parameters
+        ----------
+        kind : str
+            One of ``rlvc.plot.KINDS``.
+        file : str, Path or None
+            Where to save the figure.
+        **arguments
+            Of the function.
+
+        Returns
+        -------
+        matplotlib.figure.Figure, or graphviz.Digraph of a tree
+        """
+        from .. import plot
+
+        if kind not in plot.KINDS:
+            raise RunError(f"kind: {kind!r:.80} is not one of {', '.join(plot.KINDS)}")
+        return plot.KINDS[kind](self, file, **arguments)
+
+    def _repr_html_(self) -> str:
+        """Show the tree in a notebook: as a picture, or as text where Graphviz is missing."""
+        import html
+
+        try:
+            picture: str = self.plot("tree").pipe(format="svg").decode()
+            return picture[picture.index("<svg") :]
+        except (ImportError, OSError, RuntimeError):
+            return f"<pre>{html.escape(self.text())}</pre>"
+
+    # -------------------------------------------------------------- copies
 
     def __getstate__(self) -> dict[str, Any]:
-        """Pickle the policy in place of a planner."""
-        state = dict(self.__dict__)
-        if isinstance(self.learner, Planner):
-            state["learner"] = self.learner.policy()
-            state["_kept"] = (self.interactions, self.warning)
-        return state
+        """Pickle what :meth:`save` writes, and an encoder by the caller."""
+        from .store import packed
+
+        own = None if type(self.encoder) is Encoder else self.encoder
+        return {"content": packed(self), "encoder": own, "domain": self.learner.domain}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make it again."""
+        from .store import unpacked
+
+        made = unpacked(state["content"], state["encoder"], state["domain"])
+        self.__dict__ |= made.__dict__
 
     def __repr__(self) -> str:
         """Describe the run."""
-        return f"<rlvc.Run: {self.learner!r}>"
+        return f"<rlvc.Run: {self.acting!r}>"

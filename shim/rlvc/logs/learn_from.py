@@ -18,6 +18,7 @@ from ..checks import whole
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..errors import ConfigError, LogError, PerceptError
+from ..learning.actions import Actions
 from ..learning.encode import Encoder, Numbers
 from ..learning.learn import default_config, domain_of
 from ..learning.run import Record, Run
@@ -196,7 +197,7 @@ def learn_from(
     else:
         domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
     settings = default_config(count, len(read_log), seed, config)
-    run = Run(Agent(domain, settings), encoder, settings.seed)
+    run = Run(Agent(domain, settings), encoder, settings.seed, Actions(count))
     choices = np.zeros(len(read_log), CHOICE)
     choices["action"] = read_log.actions
     if read_log.exploited is not None:

@@ -21,10 +21,9 @@ from ..agent.agent import Agent
 from ..agent.planner import Planner
 from ..agent.policy import Policy
 from ..errors import RunError
-from ..learning.encode import explain
-from ..learning.run import Run
+from ..words import explain
 
-Source: TypeAlias = "dict[str, Any] | str | Path | Run | Agent | Planner | Policy"
+Source: TypeAlias = "dict[str, Any] | str | Path | Agent | Planner | Policy | Any"
 
 BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#4d4d4d"
 WALL, EXIT, PAPER = "#3a3a3a", "#E69F00", "#ffffff"
@@ -35,10 +34,10 @@ def reports(source: Source) -> list[dict[str, Any]]:
     """Return the runs of a source as reports."""
     if isinstance(source, str | Path):
         source = _report.read(source)
-    if isinstance(source, Run):
-        source = _report.make(source)
-    elif isinstance(source, Agent | Planner | Policy):
+    if isinstance(source, Agent | Planner | Policy):
         source = {"tree": source.tree}
+    elif hasattr(source, "learner"):
+        source = _report.make(source)
     if not isinstance(source, dict):
         raise RunError(f"a report, a file, a run or an agent is drawn, not {type(source).__name__}")
     runs = source.get("runs", [source])
@@ -139,4 +138,4 @@ def explained(name: str, report: dict[str, Any]) -> str:
                 place = percept[f"{axis}_bits"].index(int(match[1]))
                 return f"{name}: {2**place} of {axis}"
         return f"{name}: distractor"
-    return explain(name, names)
+    return explain(name, names, report.get("flags") or [])

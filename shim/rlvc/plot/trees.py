@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 
 def _action(report: dict[str, Any], action: int) -> str:
+    if "actions" in report:
+        return str(report["actions"][action])
     compass = report.get("cell_actions") is not None
     return list(ARROWS)[action] if compass and action < 4 else f"action {action}"
 

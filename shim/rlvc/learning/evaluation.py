@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Playing episodes with a learnt policy: :class:`Evaluation`."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..checks import whole
+from ..errors import ConfigError
+from .environment import Environment
+from .masks import best_allowed
+
+if TYPE_CHECKING:
+    from .run import Run
+
+
+@dataclasses.dataclass(frozen=True)
+class Evaluation:
+    """The episodes that a policy played.
+
+    Attributes
+    ----------
+    returns : ndarray of float64, [episodes]
+        The undiscounted return of each.
+    lengths : ndarray of int64, [episodes]
+        Its number of decisions.
+    """
+
+    returns: npt.NDArray[np.float64]
+    lengths: npt.NDArray[np.int64]
+
+    @property
+    def mean(self) -> float:
+        """The mean return."""
+        return float(self.returns.mean())
+
+    @property
+    def std(self) -> float:
+        """The standard deviation of the returns."""
+        return float(self.returns.std())
+
+    def __float__(self) -> float:
+        """Return the mean."""
+        return self.mean
+
+    def __str__(self) -> str:
+        """Describe it in one line."""
+        count = len(self.returns)
+        return f"{self.mean:.4g} +- {self.std:.4g} ({count} episode{'s' * (count != 1)})"
+
+
+def evaluate(run: Run, env: Any, episodes: int, seed: int) -> Evaluation:
+    """Play episodes: see :meth:`rlvc.Run.evaluate`."""
+    episodes = whole("episodes", episodes, 1, 2**53)
+    seed = whole("seed", seed, 0, 2**63 - 1)
+    stream = Environment(env)
+    if run.encoder is None:
+        raise ConfigError("evaluate: a run on percepts has no encoder for observations")
+    stream.start(run.actions, seed)
+    return _play_all(run, stream, episodes) if stream.vector else _play(run, stream, episodes)
+
+
+def _play(run: Run, stream: Environment, episodes: int) -> Evaluation:
+    returns, lengths = [], []
+    for _ in range(episodes):
+        total, length, over = 0.0, 0, False
+        while not over:
+            percept = run.percept(stream.current)
+            action = run.index(percept)
+            if stream.masks is not None:
+                action = best_allowed(run, percept, action, stream.masks[0])
+            _, reward, terminated, truncated = stream.step(action)
+            total, length, over = total + reward, length + 1, terminated or truncated
+        returns.append(total)
+        lengths.append(length)
+    return Evaluation(np.array(returns), np.array(lengths))
+
+
+def _play_all(run: Run, stream: Environment, episodes: int) -> Evaluation:
+    """Play with a vector: each environment its share, so that short episodes do not count more."""
+    count = stream.count
+    share = [(episodes + i) // count for i in range(count)][::-1]
+    sums, steps = np.zeros(count), np.zeros(count, np.int64)
+    returns: list[list[float]] = [[] for _ in range(count)]
+    lengths: list[list[int]] = [[] for _ in range(count)]
+    while any(len(done) < wanted for done, wanted in zip(returns, share, strict=True)):
+        percepts = run.percepts(stream.current)
+        chosen = np.array(run.indices(percepts), np.int64)
+        if stream.masks is not None:
+            for i, mask in enumerate(stream.masks):
+                if mask.any():  # of a dead environment none may be allowed
+                    chosen[i] = best_allowed(run, percepts[i], int(chosen[i]), mask)
+        dead = stream.dead
+        _, rewards, terminated, truncated = stream.step_all(chosen)
+        sums[~dead] += rewards[~dead]
+        steps[~dead] += 1
+        for i in np.flatnonzero((terminated | truncated) & ~dead).tolist():
+            if len(returns[i]) < share[i]:
+                returns[i].append(float(sums[i]))
+                lengths[i].append(int(steps[i]))
+            sums[i], steps[i] = 0.0, 0
+    return Evaluation(
+        np.array([value for done in returns for value in done]),
+        np.array([value for done in lengths for value in done]),
+    )

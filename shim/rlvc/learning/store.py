@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: MIT
+"""Runs in files.
+
+The file of a run is a line ``rlvc run 1``, a line of JSON, the library's snapshot of the learner, the
+percepts that were seen, and the CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``,
+``descriptors`` and ``thresholds``, one of which holds the parameters of the domain; ``config`` of an
+agent, or ``nodes`` of a planner's policy; and the encoder, the actions and the history.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import json
+import zlib
+from pathlib import Path
+from typing import Any
+
+from ..agent.agent import Agent
+from ..agent.config import Config
+from ..agent.planned_policy import PlannedPolicy
+from ..agent.planner import Planner
+from ..agent.snapshot import described, domain_of
+from ..domains.domain import Domain
+from ..domains.thresholds import Thresholds
+from ..errors import Error, SnapshotError, StoreError
+from ..files import open_file, read, replace, tidy
+from .actions import Actions
+from .encode import Encoder
+from .explanation import Seen
+from .run import Record, Run
+
+_MAGIC = b"rlvc run 1\n"
+
+
+def is_run(file: str | Path) -> bool:
+    """Whether a file can be read and begins as that of a run."""
+    with contextlib.suppress(OSError), open_file(file) as opened:
+        return opened.read(len(_MAGIC)) == _MAGIC
+    return False
+
+
+def packed(run: Run) -> bytes:
+    """Return the content of a run's file.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    bytes
+    """
+    learner, snapshot = run.learner, b""
+    if isinstance(learner, Planner):
+        learner = learner.policy()
+    head: dict[str, Any] = {}
+    if isinstance(learner, Agent):
+        snapshot = learner.snapshot()
+        head["config"] = dataclasses.asdict(learner.config)
+    else:
+        head |= {"actions": learner.actions, "nodes": learner.nodes}
+    head |= {
+        **described(learner.domain),
+        "encoder": run.encoder.to_json() if type(run.encoder) is Encoder else None,
+        "own_encoder": run.encoder is not None and type(run.encoder) is not Encoder,
+        "spelled": run.actions.to_dict(),
+        "compaction": run.compaction if run.small is not None else None,
+        "seed": run.seed,
+        "interrupted": run.interrupted,
+        "interactions": run.interactions,
+        "warning": run.warning,
+        "history": [dataclasses.astuple(record) for record in run.history],
+        "seen": [len(run.seen.percepts), run.seen.count, run.seen.stride],
+        "bytes": len(snapshot),
+    }
+    text = json.dumps(head, default=lambda number: number.item())  # numpy's numbers
+    content = b"".join([_MAGIC, text.encode(), b"\n", snapshot, *run.seen.percepts])
+    return content + zlib.crc32(content).to_bytes(4, "little")
+
+
+def write(run: Run, file: str | Path) -> None:
+    """Write a run to a file: see :meth:`rlvc.Run.save`."""
+    replace(file, packed(run))
+
+
+def load(file: str | Path, encoder: Any = None, domain: Domain | None = None) -> Run:
+    """Read a run that :meth:`rlvc.Run.save` wrote: it acts and learns on exactly as the original.
+
+    Parameters
+    ----------
+    file : str or Path
+    encoder : object or None
+        The encoder of the run, if it was not an :class:`rlvc.Encoder`.
+    domain : Domain or None
+        The domain, if it was a user-defined one.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    StoreError
+        The file cannot be read.
+    SnapshotError
+        It is not such a file, is corrupt, or needs the encoder or the domain.
+    """
+    try:
+        tidy(file)
+        content = read(file)
+    except OSError as error:
+        raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
+    try:
+        return unpacked(content, encoder, domain)
+    except Error as error:
+        raise SnapshotError(f"{file}: {error}") from None
+
+
+def unpacked(content: bytes, encoder: Any = None, domain: Domain | None = None) -> Run:
+    """Make a run of the content of its file: see :func:`load`."""
+    if not content.startswith(_MAGIC):
+        raise SnapshotError(
+            "not the file of a run: rlvc.Agent.load or PlannedPolicy.load may read it"
+        )
+    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
+        raise SnapshotError("damaged: the checksum is wrong")
+    line, _, rest = content[len(_MAGIC) : -4].partition(b"\n")
+    try:
+        return _made(json.loads(line), rest, encoder, domain)
+    except SnapshotError:
+        raise
+    except Exception as error:  # JSON of any depth, and members of any kind
+        raise SnapshotError(f"damaged: the header is not valid ({error})") from error
+
+
+def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None) -> Run:
+    if head["own_encoder"] and encoder is None:
+        raise SnapshotError("the run has an encoder of its own: pass it as encoder")
+    domain = domain_of(head) or domain
+    if domain is None:
+        raise SnapshotError("the run has a user-defined domain: pass it as domain")
+    if head["encoder"] is not None:
+        encoder = Encoder.from_json(head["encoder"])
+    snapshot, kept = rest[: head["bytes"]], rest[head["bytes"] :]
+    learner: Agent | PlannedPolicy
+    if "config" in head:
+        learner = Agent.restore(domain, Config(**head["config"]), snapshot)
+    elif isinstance(domain, Thresholds):
+        learner = PlannedPolicy(domain, head["actions"], head["nodes"])
+    else:
+        raise SnapshotError("damaged: the policy of a planner has percepts of real numbers")
+    run = Run(learner, encoder, head["seed"], Actions.from_dict(head["spelled"]))
+    run.interrupted = head["interrupted"]
+    run.history = [Record(*record) for record in head["history"]]
+    count, seen, stride = head["seen"]
+    size = domain.percept_bytes
+    if len(kept) != count * size:
+        raise SnapshotError(f"damaged: {len(kept)} bytes of percepts, expected {count * size}")
+    run.seen = Seen([kept[i * size : (i + 1) * size] for i in range(count)], seen, stride)
+    if isinstance(learner, PlannedPolicy):
+        run._kept = (head["interactions"], head["warning"])
+    if head["compaction"] is not None:
+        run.compact(**head["compaction"])
+    return run
