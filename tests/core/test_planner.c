@@ -313,6 +313,23 @@ static void test_nothing_to_learn_is_said(void **state) {
     assert_int_equal(statistics.acting, RLVC_PLANNER_EXPLORE);
 }
 
+/* Returns that are all equally good leave the model nothing to predict. */
+static void test_equally_good_is_learnt(void **state) {
+    (void)state;
+    rlvc_planner_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    player p;
+    start(&p, planner, 1);
+    play(&p, 900);
+    assert_int_equal(stats_of(planner).verdict, RLVC_PLANNER_LEARNT);
+    float score = stats_of(planner).score;
+    planner->archive.beta = 0.05f;
+    planner->archive.deviation = 0.2f * (score - planner->least);
+    assert_int_equal(stats_of(planner).verdict, RLVC_PLANNER_LEARNT);
+    planner->archive.deviation = 0.3f * (score - planner->least);
+    assert_int_equal(stats_of(planner).verdict, RLVC_PLANNER_NO_MODEL);
+}
+
 /* ------------------------------------------------------------------ arguments */
 
 static void test_defaults_and_ranges(void **state) {
@@ -576,6 +593,7 @@ int main(void) {
         cmocka_unit_test(test_learning_while_acting),
         cmocka_unit_test(test_endless_episodes),
         cmocka_unit_test(test_nothing_to_learn_is_said),
+        cmocka_unit_test(test_equally_good_is_learnt),
         cmocka_unit_test(test_defaults_and_ranges),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_the_macro_is_enough),

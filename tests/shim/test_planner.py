@@ -7,6 +7,7 @@ import dataclasses
 import json
 import pickle
 import subprocess
+import zlib
 
 import gymnasium
 import numpy as np
@@ -134,6 +135,60 @@ def test_a_policy_is_saved_and_pickled(learnt, tmp_path):
         rlvc.PlannedPolicy.load(tmp_path / "none")
     with pytest.raises(errors.ConfigError, match="names"):
         policy.save(file, "at")
+
+
+def test_a_planner_is_saved_and_goes_on(tmp_path):
+    planner, file = fed(interactions=420)[0], tmp_path / "planner"
+    planner.save(file, ["at", "noise"])
+    others = [rlvc.Planner.load(file), pickle.loads(pickle.dumps(planner))]
+    random = np.random.default_rng(3).standard_normal((400, 2)).astype(F32)
+    for one in (planner, *others):
+        for i, x in enumerate(random):
+            one.observe(one.act(), float(x[0]), x, truncated=i % 40 == 39)
+            if i % 40 == 39:
+                one.learn()
+                one.begin(x)
+    assert {one.snapshot() for one in others} == {planner.snapshot()}
+    assert others[0].config == planner.config and others[0].domain.components == 2
+    content = file.read_bytes()
+    for i in (*range(0, 400, 7), len(content) - 1):
+        file.write_bytes(content[:i] + bytes([content[i] ^ 1]) + content[i + 1 :])
+        with pytest.raises(errors.SnapshotError):
+            rlvc.Planner.load(file)
+    with pytest.raises(errors.StoreError):
+        rlvc.Planner.load(tmp_path / "none")
+    with pytest.raises(errors.ConfigError, match="names"):
+        planner.save(file, "at")
+
+
+def test_snapshots_that_are_refused(tmp_path):
+    planner, file = fed(interactions=420)[0], tmp_path / "planner"
+    snapshot = planner.snapshot()
+    for wrong in (
+        snapshot[:-1],
+        snapshot[:100] + b"x" + snapshot[101:],
+        b"",
+        rlvc.Agent(2, 2).snapshot(),
+    ):
+        with pytest.raises(errors.SnapshotError):
+            rlvc.Planner.restore(2, planner.config, wrong)
+    with pytest.raises(errors.SnapshotError, match="another config"):
+        rlvc.Planner.restore(2, planner.config.replace(seed=9), snapshot)
+    with pytest.raises(errors.SnapshotError, match="bytes"):
+        rlvc.Planner.restore(2, planner.config, "x")
+    content = planner_file(b'{"thresholds": [2]}\n')
+    file.write_bytes(content)
+    with pytest.raises(errors.SnapshotError, match="damaged"):
+        rlvc.Planner.load(file)
+    planner.observe(0, 1.0, np.zeros(2, F32), truncated=True)
+    assert not planner.learn(planner.budget_min).done
+    with pytest.raises(errors.BusyError):
+        planner.snapshot()
+
+
+def planner_file(content):
+    whole = b"rlvc planner 1\n" + content
+    return whole + zlib.crc32(whole).to_bytes(4, "little")
 
 
 LEAF = (0.0, 65535, 0, 1)
@@ -267,8 +322,6 @@ def test_misuse_changes_nothing():
     assert planner.statistics.interactions == 0
     with pytest.raises(errors.ReenteredError):
         planner.__init__(2, 2)
-    with pytest.raises(TypeError, match="pickled"):
-        pickle.dumps(planner)
     planner.observe(1, 1.0, x, terminated=True)
     planner.close()
     planner.close()

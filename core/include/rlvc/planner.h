@@ -6,6 +6,7 @@
  *     rlvc_planner_act, rlvc_planner_observe                       at each interaction
  *     rlvc_planner_learn                                           after each episode, or in slices
  *     rlvc_planner_predict, rlvc_planner_node, rlvc_planner_stats  at any time
+ *     rlvc_planner_save, rlvc_planner_load                         between two steps of learning
  *
  * For robots, whose sensors give angles, speeds and distances, classes of percepts are a weak
  * guide. The planner fits a model of what each action changes to some hundred interactions,
@@ -21,6 +22,7 @@
 #define RLVC_PLANNER_H
 
 #include "rlvc/policy.h"
+#include "rlvc/snapshot.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -189,7 +191,8 @@ RLVC_API rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint3
 #define RLVC_PLANNER_NO_EPISODE 1u    /* no episode ended yet */
 #define RLVC_PLANNER_NO_DIFFERENCE 2u /* all episodes earned the same */
 #define RLVC_PLANNER_NO_MODEL                                                                      \
-    3u /* there is no policy yet, or the model does not predict what one earns */
+    3u /* there is no policy yet, or the model does not predict what one earns, and the best is    \
+          held to earn no more than four deviations above the worst episode */
 
 typedef struct rlvc_planner_statistics {
     uint32_t interactions; /* observed since init */
@@ -211,6 +214,41 @@ typedef struct rlvc_planner_statistics {
 /* @return RLVC_OK. O(1). */
 RLVC_API rlvc_status rlvc_planner_stats(const rlvc_planner *planner,
                                         rlvc_planner_statistics *statistics);
+
+/* ------------------------------------------------------------------ snapshots */
+
+/* Beside RLVC_SNAPSHOT_VERSION, which is of agents. */
+#define RLVC_PLANNER_SNAPSHOT_VERSION 0x10001u
+
+/* The most bytes that a snapshot of a planner can take: what slot_bytes of its store must be (see
+ * rlvc/snapshot.h). A multiple of RLVC_STORE_UNIT. O(1).
+ * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if it is above RLVC_SLOT_BYTES_MAX: *bytes is 0.
+ */
+RLVC_API rlvc_status rlvc_planner_snapshot_size(const rlvc_planner_config *config, uint32_t *bytes);
+
+/* Writes a snapshot of all that is known: the ring, the model, the trees that were tried and their
+ * returns, and the episode under way. The planner is not changed. Stack and memory are bounded, but
+ * the time is what the store takes for all the bytes. O(bytes).
+ * @return RLVC_OK; RLVC_E_BUSY: a step of learning is under way, go on with rlvc_planner_learn;
+ * RLVC_E_RANGE: slot_bytes; RLVC_E_STORE: the last whole snapshot is still there. */
+RLVC_API rlvc_status rlvc_planner_save(rlvc_planner *planner, const rlvc_store *store);
+
+/* Makes a planner in the caller's block, as rlvc_planner_init does, out of the newest whole
+ * snapshot of a store. It goes on bit for bit as if it had never stopped. The config must be the
+ * one it was saved with, in every field. O(bytes).
+ * @return RLVC_OK; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE;
+ * RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION: also if an agent was saved; RLVC_E_MISMATCH.
+ * Unless it is RLVC_OK, *planner is null and the block holds nothing of use. */
+RLVC_API rlvc_status rlvc_planner_load(const rlvc_planner_config *config, void *memory,
+                                       size_t bytes, const rlvc_store *store,
+                                       rlvc_planner **planner);
+
+/* Reads the config of the newest whole snapshot of a store. Only checks that the snapshot is whole.
+ * O(bytes).
+ * @return RLVC_OK; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED;
+ * RLVC_E_VERSION. On error *config is zeros. */
+RLVC_API rlvc_status rlvc_planner_snapshot_peek(const rlvc_store *store,
+                                                rlvc_planner_config *config);
 
 #ifdef __cplusplus
 }

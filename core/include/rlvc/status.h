@@ -28,8 +28,8 @@ typedef enum rlvc_status {
     RLVC_E_ORDER = -4,    /* there is no current percept: call rlvc_begin first */
     RLVC_E_RANGE = -5,    /* an action, class, index or budget is out of range */
     RLVC_E_REWARD = -6,   /* a reward is not a finite number within +-RLVC_REWARD_MAX */
-    RLVC_E_BUSY = -7,     /* the ring is full and its oldest interaction is still being learnt from:
-                             finish the learning first */
+    RLVC_E_BUSY = -7,     /* a step of learning is under way, and the ring is full of what it needs,
+                             or a planner cannot be saved before its end: finish it first */
     RLVC_E_CALLBACK = -8, /* a callback of the domain, or the caller's write, failed */
     RLVC_E_REENTERED = -9, /* a callback called back into the agent that had called it */
     RLVC_E_STORE = -10,    /* a read, write, erase or sync of the caller's store failed */

@@ -14,8 +14,8 @@ const char *rlvc_status_text(rlvc_status status) {
         [-RLVC_E_ORDER] = "there is no current percept (call rlvc_begin first)",
         [-RLVC_E_RANGE] = "an action, class, index or budget is out of range",
         [-RLVC_E_REWARD] = "a reward is not a finite number within +-1e12",
-        [-RLVC_E_BUSY] = "the ring is full and its oldest interaction is being learnt from "
-                         "(finish learning)",
+        [-RLVC_E_BUSY] = "a step of learning is under way, and the ring is full of what it "
+                         "needs, or it is too early to save (finish learning)",
         [-RLVC_E_CALLBACK] = "a callback failed",
         [-RLVC_E_REENTERED] = "a callback called back into the agent that had called it",
         [-RLVC_E_STORE] = "a read, write, erase or sync of the store failed",

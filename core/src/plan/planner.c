@@ -275,6 +275,19 @@ rlvc_status rlvc_planner_predict(const rlvc_planner *planner, const float *perce
     return RLVC_OK;
 }
 
+/* Was anything learnt? Where all policies of late are equally good there is nothing to predict
+ * about them, and beta is small: then the best must earn clearly more than the worst episode did.
+ */
+static uint8_t verdict_of(const rlvc_planner *planner, const rlvc_trial *best) {
+    if (planner->episodes == 0)
+        return RLVC_PLANNER_NO_EPISODE;
+    if (planner->least == planner->most)
+        return RLVC_PLANNER_NO_DIFFERENCE;
+    float clearly = planner->least + 4.0f * planner->archive.deviation;
+    int known = best && (planner->archive.beta >= 0.1f || best->score > clearly);
+    return known ? RLVC_PLANNER_LEARNT : RLVC_PLANNER_NO_MODEL;
+}
+
 rlvc_status rlvc_planner_stats(const rlvc_planner *planner, rlvc_planner_statistics *statistics) {
     if (!planner || !statistics)
         return RLVC_E_NULL;
@@ -295,13 +308,7 @@ rlvc_status rlvc_planner_stats(const rlvc_planner *planner, rlvc_planner_statist
         statistics->tried = best->episodes;
         statistics->score = best->score;
     }
-    statistics->verdict = RLVC_PLANNER_LEARNT;
-    if (planner->episodes == 0)
-        statistics->verdict = RLVC_PLANNER_NO_EPISODE;
-    else if (planner->least == planner->most)
-        statistics->verdict = RLVC_PLANNER_NO_DIFFERENCE;
-    else if (!best || planner->archive.beta < 0.1f)
-        statistics->verdict = RLVC_PLANNER_NO_MODEL;
+    statistics->verdict = verdict_of(planner, best);
     return RLVC_OK;
 }
 

@@ -240,32 +240,18 @@ rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *dom
     return RLVC_OK;
 }
 
-/* @param min_bytes bytes that a slot must hold */
-static rlvc_status check_store(const rlvc_store *store, uint64_t min_bytes) {
-    if (!store || !store->read || !store->write)
-        return RLVC_E_NULL;
-    return store->slot_bytes >= min_bytes && store->slot_bytes <= RLVC_SLOT_BYTES_MAX &&
-                   store->slot_bytes % RLVC_STORE_UNIT == 0
-               ? RLVC_OK
-               : RLVC_E_RANGE;
-}
-
 /* ------------------------------------------------------------------ saving */
 
 static rlvc_status save(rlvc_agent *agent, const rlvc_store *store) {
-    rlvc_two_slot newest = {1, 0, 0, 0};
-    rlvc_status status = rlvc_two_slot_newest(store, &newest);
-    if (status == RLVC_E_STORE)
+    rlvc_two_slot slot;
+    rlvc_status status = rlvc_two_slot_next(store, &slot);
+    if (status != RLVC_OK)
         return status;
-    if (status != RLVC_OK) { /* nothing to lose */
-        newest.index = 1;
-        newest.sequence = 0;
-    }
     rlvc_stream stream;
     rlvc_stream_count(&stream);
     pass_agent(&stream, agent);
-    rlvc_two_slot slot = {1u - newest.index, RLVC_SNAPSHOT_VERSION, newest.sequence + 1u,
-                          (uint32_t)rlvc_stream_size(&stream)};
+    slot.version = RLVC_SNAPSHOT_VERSION;
+    slot.bytes = (uint32_t)rlvc_stream_size(&stream);
     rlvc_stream_save(&stream, store, &slot);
     pass_agent(&stream, agent);
     return rlvc_stream_end(&stream);
@@ -276,7 +262,7 @@ rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store) {
         return RLVC_E_NULL;
     if (agent->busy)
         return RLVC_E_REENTERED;
-    rlvc_status status = check_store(store, largest(&agent->config, &agent->domain));
+    rlvc_status status = rlvc_two_slot_check(store, largest(&agent->config, &agent->domain));
     if (status != RLVC_OK)
         return status;
     agent->busy = 1;
@@ -381,7 +367,7 @@ rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void
     uint32_t min_bytes = 0;
     rlvc_status status = rlvc_snapshot_size(config, domain, &min_bytes);
     if (status == RLVC_OK)
-        status = memory ? check_store(store, min_bytes) : RLVC_E_NULL;
+        status = memory ? rlvc_two_slot_check(store, min_bytes) : RLVC_E_NULL;
     rlvc_stream stream;
     rlvc_snapshot_info info;
     if (status == RLVC_OK)
@@ -405,7 +391,7 @@ rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void
 rlvc_status rlvc_snapshot_peek(const rlvc_store *store, rlvc_snapshot_info *info) {
     if (!info)
         return RLVC_E_NULL;
-    rlvc_status status = check_store(store, RLVC_STORE_UNIT);
+    rlvc_status status = rlvc_two_slot_check(store, RLVC_STORE_UNIT);
     rlvc_stream stream;
     if (status == RLVC_OK)
         status = open_newest(store, &stream, info);

@@ -14,6 +14,15 @@ static const unsigned char magic[4] = {'R', 'L', 'V', 'S'};
 
 /* ------------------------------------------------------------------ which slot */
 
+rlvc_status rlvc_two_slot_check(const rlvc_store *store, uint64_t min_bytes) {
+    if (!store || !store->read || !store->write)
+        return RLVC_E_NULL;
+    return store->slot_bytes >= min_bytes && store->slot_bytes <= RLVC_SLOT_BYTES_MAX &&
+                   store->slot_bytes % RLVC_STORE_UNIT == 0
+               ? RLVC_OK
+               : RLVC_E_RANGE;
+}
+
 static uint32_t base_of(const rlvc_store *store, uint32_t index) {
     return index * store->slot_bytes;
 }
@@ -66,6 +75,20 @@ rlvc_status rlvc_two_slot_newest(const rlvc_store *store, rlvc_two_slot *slot) {
             return status;
     }
     return status;
+}
+
+rlvc_status rlvc_two_slot_next(const rlvc_store *store, rlvc_two_slot *slot) {
+    rlvc_two_slot newest = {1, 0, 0, 0};
+    rlvc_status status = rlvc_two_slot_newest(store, &newest);
+    if (status == RLVC_E_STORE)
+        return status;
+    memset(slot, 0, sizeof *slot);
+    slot->sequence = 1;
+    if (status == RLVC_OK) { /* else there is nothing to lose */
+        slot->index = 1u - newest.index;
+        slot->sequence = newest.sequence + 1u;
+    }
+    return RLVC_OK;
 }
 
 /* ------------------------------------------------------------------ streams */

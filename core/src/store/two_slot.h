@@ -19,9 +19,18 @@ typedef struct rlvc_two_slot {
     uint32_t bytes;
 } rlvc_two_slot;
 
+/* Is this a store whose slots hold `min_bytes`? O(1).
+ * @return RLVC_OK; RLVC_E_NULL: no store, or a callback is missing; RLVC_E_RANGE: slot_bytes. */
+rlvc_status rlvc_two_slot_check(const rlvc_store *store, uint64_t min_bytes);
+
 /* Finds the newest whole snapshot; reads it from end to end.
  * @return RLVC_OK; RLVC_E_STORE; RLVC_E_EMPTY: neither slot begins as one; RLVC_E_DAMAGED. */
 rlvc_status rlvc_two_slot_newest(const rlvc_store *store, rlvc_two_slot *slot);
+
+/* Where the next snapshot goes: not over the newest whole one. Its version and bytes are the
+ * caller's to set.
+ * @return RLVC_OK; RLVC_E_STORE. */
+rlvc_status rlvc_two_slot_next(const rlvc_store *store, rlvc_two_slot *slot);
 
 enum { RLVC_STREAM_COUNT, RLVC_STREAM_SAVE, RLVC_STREAM_LOAD };
 

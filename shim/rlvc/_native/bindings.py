@@ -78,6 +78,10 @@ MIN_TREE_ROWS_MAX = 16777216
 MIN_TREE_FEATURES_MAX = 65535
 MIN_TREE_ENTRIES_MAX = 268435456
 MIN_TREE_EFFORT_MAX = 549755813888
+SNAPSHOT_VERSION = 1
+STORE_UNIT = 64
+SLOT_BYTES_MAX = 2147483584
+SNAPSHOT_FIXED_BYTES = 225
 PLANNER_COMPONENTS_MAX = 64
 PLANNER_ACTIONS_MAX = 64
 PLANNER_CAPACITY_MAX = 100000000
@@ -94,10 +98,7 @@ PLANNER_AGAIN = 3
 PLANNER_LEARNT = 0
 PLANNER_NO_EPISODE = 1
 PLANNER_NO_DIFFERENCE = 2
-SNAPSHOT_VERSION = 1
-STORE_UNIT = 64
-SLOT_BYTES_MAX = 2147483584
-SNAPSHOT_FIXED_BYTES = 225
+PLANNER_SNAPSHOT_VERSION = 65537
 THRESHOLDS_COMPONENTS_MAX = 1024
 THRESHOLDS_OBLIQUE_MAX = 64
 THRESHOLDS_CUTPOINTS_MAX = 65535
@@ -395,6 +396,37 @@ class PolicyInfo(c.Structure):
     ]
 
 
+STORE_READ = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
+
+
+STORE_WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
+
+
+STORE_ERASE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_uint32)
+
+
+STORE_SYNC = c.CFUNCTYPE(c.c_int, c.c_void_p)
+
+
+class Store(c.Structure):
+    """``rlvc_store``."""
+
+    _fields_ = [
+        ("ctx", c.c_void_p), ("slot_bytes", c.c_uint32), ("read", STORE_READ),
+        ("write", STORE_WRITE), ("erase", STORE_ERASE), ("sync", STORE_SYNC),
+    ]
+
+
+class SnapshotInfo(c.Structure):
+    """``rlvc_snapshot_info``."""
+
+    _fields_ = [
+        ("version", c.c_uint32), ("sequence", c.c_uint32), ("slot", c.c_uint32),
+        ("bytes", c.c_uint32), ("percept_bytes", c.c_uint32), ("feature_bytes", c.c_uint32),
+        ("config", Config),
+    ]
+
+
 class PlannerConfig(c.Structure):
     """``rlvc_planner_config``."""
 
@@ -424,37 +456,6 @@ class PlannerStatistics(c.Structure):
         ("leaves", c.c_uint32), ("tried", c.c_uint32), ("score", c.c_float),
         ("beta", c.c_float), ("deviation", c.c_float), ("acting", c.c_uint8),
         ("verdict", c.c_uint8), ("reserved", c.c_uint8 * 2),
-    ]
-
-
-STORE_READ = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
-
-
-STORE_WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.c_uint32)
-
-
-STORE_ERASE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_uint32, c.c_uint32)
-
-
-STORE_SYNC = c.CFUNCTYPE(c.c_int, c.c_void_p)
-
-
-class Store(c.Structure):
-    """``rlvc_store``."""
-
-    _fields_ = [
-        ("ctx", c.c_void_p), ("slot_bytes", c.c_uint32), ("read", STORE_READ),
-        ("write", STORE_WRITE), ("erase", STORE_ERASE), ("sync", STORE_SYNC),
-    ]
-
-
-class SnapshotInfo(c.Structure):
-    """``rlvc_snapshot_info``."""
-
-    _fields_ = [
-        ("version", c.c_uint32), ("sequence", c.c_uint32), ("slot", c.c_uint32),
-        ("bytes", c.c_uint32), ("percept_bytes", c.c_uint32), ("feature_bytes", c.c_uint32),
-        ("config", Config),
     ]
 
 
@@ -613,11 +614,11 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_min_tree_result": MinTreeResult,
     "rlvc_policy_config": PolicyConfig,
     "rlvc_policy_info": PolicyInfo,
+    "rlvc_store": Store,
+    "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_planner_config": PlannerConfig,
     "rlvc_planner_test": PlannerTest,
     "rlvc_planner_statistics": PlannerStatistics,
-    "rlvc_store": Store,
-    "rlvc_snapshot_info": SnapshotInfo,
     "rlvc_thresholds": Thresholds,
     "rlvc_threshold": Threshold,
     "gridworld_maze": GridworldMaze,
@@ -693,6 +694,12 @@ CORE: Functions = {
     "rlvc_policy_act": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_policy_print": (c.c_int, [c.c_void_p, c.c_uint32, WRITE, c.c_void_p]),
     "rlvc_policy_export_c": (c.c_int, [c.c_void_p, c.c_void_p, WRITE, c.c_void_p, c.c_void_p]),
+    "rlvc_snapshot_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
+    "rlvc_save": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_load": (c.c_int, [
+        c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p,
+    ]),
+    "rlvc_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_default": (c.c_int, [c.c_void_p, c.c_uint32, c.c_uint32]),
     "rlvc_planner_size": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_init": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
@@ -709,12 +716,10 @@ CORE: Functions = {
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p,
     ]),
     "rlvc_planner_stats": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_snapshot_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
-    "rlvc_save": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_load": (c.c_int, [
-        c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p,
-    ]),
-    "rlvc_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_snapshot_size": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_save": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_load": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
+    "rlvc_planner_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_default": (c.c_int, [c.c_void_p, c.c_uint32]),
     "rlvc_thresholds_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_check": (c.c_int, [c.c_void_p, c.c_void_p]),

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -14,11 +16,13 @@ from ..checks import whole
 from ..domains.callbacks import Guard
 from ..domains.domain import Percept
 from ..domains.thresholds import Thresholds
-from ..errors import PerceptError, RangeError, ReenteredError, RewardError
+from ..errors import Error, PerceptError, RangeError, ReenteredError, RewardError, SnapshotError
 from .handle import Handle, allocated
 from .planned_policy import PlannedPolicy
 from .planner_config import PlannerConfig, to_native
+from .planner_file import read_file, write_file
 from .results import PlannerStatistics, Progress
+from .snapshot import MemoryStore
 
 _SLICE = 1 << 22  # budget of a slice of learning, after which Ctrl-C is noticed: milliseconds
 
@@ -79,6 +83,16 @@ class Planner(Handle):
     ) -> None:
         if "_address" in self.__dict__:
             raise ReenteredError("the planner is initialized already")
+        self._create(domain, config, changes, None)
+
+    def _create(
+        self,
+        domain: Thresholds | int,
+        config: PlannerConfig | int,
+        changes: dict[str, Any],
+        snapshot: bytes | None,
+    ) -> None:
+        """Allocate memory and make a planner in it: a new one, or that of a snapshot."""
         if not isinstance(domain, Thresholds):
             domain = Thresholds(whole("domain", domain, 1, _native.PLANNER_COMPONENTS_MAX))
         if not isinstance(config, PlannerConfig):
@@ -86,6 +100,7 @@ class Planner(Handle):
         if changes:
             config = config.replace(**changes)
         native, size = to_native(config, domain.components), ctypes.c_size_t()
+        self._native_planner = native
         self._guard = Guard()
         self._domain = self._thresholds = domain
         self._settings = config
@@ -95,7 +110,12 @@ class Planner(Handle):
         self._block = allocated(size.value, "a planner", "reduce capacity")
         planner = ctypes.c_void_p()
         place = (self._block.ctypes.data, size.value)
-        self._check(_native.call.rlvc_planner_init(_byref(native), *place, _byref(planner)))
+        if snapshot is None:
+            status = _native.call.rlvc_planner_init(_byref(native), *place, _byref(planner))
+        else:
+            store = _byref(MemoryStore(self._snapshot_bytes(), snapshot).native)
+            status = _native.call.rlvc_planner_load(_byref(native), *place, store, _byref(planner))
+        self._check(status)
         self._handle = self._address = planner.value
         self._memory_bytes = size.value
         self._action = ctypes.c_uint32()
@@ -307,9 +327,108 @@ class Planner(Handle):
         """Return the learnt policy as a C99 header: see :meth:`rlvc.PlannedPolicy.export_c`."""
         return self.policy().export_c(name)
 
+    # -------------------------------------------------------------- snapshots
+
+    def _snapshot_bytes(self) -> int:
+        size = ctypes.c_uint32()
+        self._check(
+            _native.call.rlvc_planner_snapshot_size(_byref(self._native_planner), _byref(size))
+        )
+        return size.value
+
+    def snapshot(self) -> bytes:
+        """Return the complete state of the planner, between two steps of learning.
+
+        Returns
+        -------
+        bytes
+            The same on every machine. ``core/SPEC.md`` describes the format.
+
+        Raises
+        ------
+        BusyError
+            A step of learning is under way: call :meth:`learn` until it is done.
+        """
+        store = MemoryStore(self._snapshot_bytes())
+        self._check(_native.call.rlvc_planner_save(self._handle, _byref(store.native)))
+        return store.newest()
+
+    @classmethod
+    def restore(
+        cls, domain: Thresholds | int, config: PlannerConfig | int, snapshot: bytes
+    ) -> Planner:
+        """Make a planner from a snapshot. It continues exactly as the original would have.
+
+        Parameters
+        ----------
+        domain : Thresholds or int
+            The domain of the original.
+        config : PlannerConfig or int
+            The config of the original, the same in every field.
+        snapshot : bytes
+            The result of :meth:`snapshot`.
+
+        Returns
+        -------
+        Planner
+
+        Raises
+        ------
+        SnapshotError
+            It is corrupt, or has another version, config or domain.
+        """
+        if not isinstance(snapshot, bytes | bytearray | memoryview):
+            raise SnapshotError(f"a snapshot is bytes, not {type(snapshot).__name__}")
+        planner = cls.__new__(cls)
+        planner._create(domain, config, {}, bytes(snapshot))
+        return planner
+
+    def save(self, file: str | Path, names: Sequence[str] = ()) -> None:
+        """Write the planner to a file, to learn on later. A failure leaves the old file.
+
+        Parameters
+        ----------
+        file : str or Path
+        names : sequence of str
+            Names of the components.
+
+        Raises
+        ------
+        StoreError
+            The file cannot be written, or is a link, a folder, a FIFO or a device.
+        BusyError
+            A step of learning is under way: call :meth:`learn` until it is done.
+        """
+        write_file(file, self, names)
+
+    @classmethod
+    def load(cls, file: str | Path) -> Planner:
+        """Read a planner from a file that :meth:`save` wrote.
+
+        Parameters
+        ----------
+        file : str or Path
+
+        Returns
+        -------
+        Planner
+
+        Raises
+        ------
+        StoreError
+            The file cannot be read.
+        SnapshotError
+            It is not such a file, or is corrupt.
+        """
+        domain, config, _, snapshot = read_file(file)
+        try:
+            return cls.restore(domain, config, snapshot)
+        except Error as error:
+            raise type(error)(f"{file}: {error}") from None
+
     def __reduce__(self) -> tuple[Any, ...]:
-        """Refuse to be pickled."""
-        raise TypeError("a planner is not pickled: pickle its policy()")
+        """Pickle the planner."""
+        return type(self).restore, (self._thresholds, self._settings, self.snapshot())
 
     def __repr__(self) -> str:
         """Describe the planner."""
