@@ -254,3 +254,24 @@ def test_an_image_that_has_passed_is_not_run_again(tmp_path):
     assert [run("exit 3", 1), run("exit 3", 1)] == [1, 2]
     assert [run("exit 0"), run("exit 0")] == [3, 3]
     assert [run("echo 1"), run("echo 1"), run("exit 3", 1)] == [4, 4, 5]
+
+
+def test_promises(tree):
+    """A command that names what does not exist is a fault, and so is a row without one."""
+    shutil.copytree(CHECKS.parents[1] / "tests", tree.folder / "tests", ignore=shutil.ignore_patterns("corpus"))
+    shutil.copy(CHECKS.parents[1] / "CMakePresets.json", tree.folder)
+    for name in ("test", "fuzz", "targets"):
+        shutil.copy(CHECKS.parent / name, tree.folder / "tools")
+
+    def faults(command):
+        tree.write("core/PROMISES.md", f"| promise | checked by | command | figure |\n|---|\n| a | b | {command} | 0 |\n")
+        return tree.check("promises")[0]
+
+    for right in ("`tools/test bits`", "`tools/fuzz 60 log calls`", "`ctest --preset dev -R core.test_rng`",
+                  "`RLVC_KILLS=9 python -m pytest -s tests/shim/test_files.py -k kill`", "`tools/targets cortex-m3`"):
+        assert faults(right) == 0, right
+    for wrong in ("", "tools/test", "`tools/test other`", "`tools/none`", "`tools/fuzz 60 none`", "`make`",
+                  "`ctest --preset dev -R core.test_none`", "`ctest --preset none -R core.test_rng`", "`ctest`",
+                  "`python -m pytest tests/shim/test_files.py -k none`", "`python -m pytest tests/none.py`",
+                  "`tools/targets z80`"):
+        assert faults(wrong) == 1, wrong
