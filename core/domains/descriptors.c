@@ -441,13 +441,23 @@ static int candidates(void *ctx, const rlvc_samples *samples, uint32_t first, ui
     return 0;
 }
 
+/* Byte i of a feature's record as it is stored: of numbers the lowest first. */
+static uint32_t stored_byte(const rlvc_descriptors *d, const void *feature, uint32_t i) {
+    const unsigned char *byte = (const unsigned char *)feature;
+    uint32_t number;
+    if (i >= 4u && d->form == RLVC_DESCRIPTORS_INT8)
+        return byte[i];
+    memcpy(&number, byte + i / 4u * 4u, sizeof number);
+    return number >> 8u * (i % 4u) & 255u;
+}
+
 /* "vector " and eight hexadecimal digits, a hash (FNV-1a) of the record. */
 static int name(void *ctx, const void *feature, char *text, uint32_t room) {
-    const unsigned char *byte = (const unsigned char *)feature;
+    const rlvc_descriptors *d = (const rlvc_descriptors *)ctx;
     const char *word = "vector ";
     uint32_t sum = 2166136261u, n = 0;
-    for (uint32_t i = 0; i < feature_bytes((const rlvc_descriptors *)ctx); i++)
-        sum = (sum ^ byte[i]) * 16777619u;
+    for (uint32_t i = 0; i < feature_bytes(d); i++)
+        sum = (sum ^ stored_byte(d, feature, i)) * 16777619u;
     for (; *word != '\0' && n + 1u < room; n++)
         text[n] = *word++;
     for (uint32_t digit = 0; digit < 8u && n + 1u < room; digit++, n++)
