@@ -3,36 +3,14 @@
 
 #include "failure.h"
 
+#include "maze_defaults.h"
 #include "rlvc/rlvc.h"
 
 #include <algorithm>
 
 namespace {
 
-// Defaults found by trial.
-//
-// The published criterion asks for the same evidence from every feature. In a small maze without
-// slip the residual criterion learns fast, from the interactions that fit into 36 KiB. Slip needs
-// more samples. In a larger maze the memory must hold all interactions, and all actions are
-// exploring ones: the greedy action of a class that still covers half the maze would only push the
-// walk into a corner. Splits by successors are off there: they take several times as long, and
-// rewards alone separate as much in the end. An incremental solver forgets at its learning rate,
-// so it needs more interactions, and more of them along its policy.
-struct Defaults {
-    Schedule schedule;
-    float alpha;
-    float alpha_known;
-    bool successors;
-    uint32_t capacity; // 0: all interactions
-};
-
-constexpr Defaults returns_defaults{{10000, 20, 0.8f}, 0.05f, 0.0001f, false, 0};
-constexpr Defaults small_defaults{{2500, 25, 0.9f}, 0.01f, 1.0f, true, 1200};
-constexpr Defaults small_incremental_defaults{{20000, 200, 0.3f}, 0.01f, 1.0f, true, 1200};
-constexpr Defaults large_defaults{{0, 60, 1.0f}, 0.01f, 0.00001f, false, 0};
-constexpr uint32_t small_cells = 46;
-constexpr uint32_t large_interactions_a_cell = 320;
-constexpr uint32_t classes_min = 64, classes_max = 65535, capacity_max = 2147483647;
+constexpr uint32_t capacity_max = 2147483647;
 
 const std::vector<Named> solvers{{"value-iteration", RLVC_SOLVER_VALUE_ITERATION},
                                  {"policy-iteration", RLVC_SOLVER_POLICY_ITERATION},
@@ -59,21 +37,12 @@ constexpr char defaults_table[] =
     with q-learning or sarsa      320 a cell     60     0.3      0.01   0.00001      no          all
 A small maze has at most 46 free cells, as Sutton's has, and no slip.)";
 
-Defaults defaults_for(const Options &options, const gridworld_maze &maze) {
-    if (options.returns()) {
-        return returns_defaults;
-    }
+gridworld_defaults defaults_for(const Options &options, const gridworld_maze &maze) {
     const bool incremental =
         options.solver == RLVC_SOLVER_Q_LEARNING || options.solver == RLVC_SOLVER_SARSA;
-    if (maze.free_cells <= small_cells && options.slip == 0.0f) {
-        return incremental ? small_incremental_defaults : small_defaults;
-    }
-    Defaults large = large_defaults;
-    large.schedule.interactions = large_interactions_a_cell * maze.free_cells;
-    if (incremental) {
-        large.schedule.epsilon = small_incremental_defaults.schedule.epsilon;
-    }
-    return large;
+    const gridworld_learner learner{options.returns(), incremental, options.distractors,
+                                    options.slip};
+    return gridworld_defaults_for(&maze, &learner);
 }
 
 void add_learning(CLI::App &app, Options &options) {
@@ -153,15 +122,12 @@ bool read_options(int argc, char **argv, Options &options) {
 
 void settle(Options &options, const gridworld_maze &maze) {
     check_percept(options, maze);
-    const Defaults defaults = defaults_for(options, maze);
-    settle_schedule(options, defaults.schedule);
+    const gridworld_defaults defaults = defaults_for(options, maze);
+    settle_schedule(options, {defaults.interactions, defaults.steps, defaults.epsilon});
     set_if_open(options.alpha, options.alpha == 0.0f, defaults.alpha);
     set_if_open(options.alpha_known, options.alpha_known == 0.0f, defaults.alpha_known);
-    // Splits by successors need all bits in one block of columns.
-    const bool fits = gridworld_bits(&maze, options.distractors) <= RLVC_DETECT_FEATURES;
-    set_if_open(options.successors, options.successors < 0, int{defaults.successors && fits});
-    set_if_open(options.classes, options.classes == 0,
-                std::clamp(maze.free_cells / 3 * 4 + 4, classes_min, classes_max));
+    set_if_open(options.successors, options.successors < 0, defaults.successors);
+    set_if_open(options.classes, options.classes == 0, defaults.classes);
     set_if_open(options.capacity, options.capacity == 0,
                 defaults.capacity == 0 ? options.interactions
                                        : std::min(options.interactions, defaults.capacity));

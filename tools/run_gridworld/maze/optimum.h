@@ -9,11 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-// Q*(cell, action), by value iteration over the cells in double precision:
-//
-//     Q(s, a) = (1 - slip) G(s, a) + slip / 3 * sum of G(s, b) over the directions b other than a
-//     G(s, d) = 100 if the neighbour s' in direction d is an exit, or else
-//               -1 + discount * max over a of Q(s', a)
+// Q*(cell, action), by value iteration over the cells: maze_values.h has the formula.
 class Optimum {
   public:
     // Throws Failure if the values do not settle, as for a discount very close to 1.
