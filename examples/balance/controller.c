@@ -14,7 +14,7 @@ uint32_t controller_block_bytes(void) {
     return (uint32_t)sizeof block;
 }
 
-int controller_init(struct controller *controller) {
+int controller_init(struct controller *controller, uint32_t seed) {
     static const struct controller made;
     rlvc_planner_config config;
     *controller = made;
@@ -26,11 +26,11 @@ int controller_init(struct controller *controller) {
     config.horizon = EPISODE_STEPS;
     config.candidates = CANDIDATES;
     config.patience = PATIENCE;
-    config.seed = SEED;
+    config.seed = seed;
     if (rlvc_planner_init(&config, block, sizeof block, &controller->planner) != RLVC_OK)
         return -1;
-    cart_pole_init(&controller->cart, SEED);
-    cart_pole_init(&controller->meanwhile, SEED + 1u);
+    cart_pole_init(&controller->cart, seed);
+    cart_pole_init(&controller->meanwhile, seed + 1u);
     return 0;
 }
 

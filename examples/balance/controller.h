@@ -27,7 +27,7 @@ struct controller {
 
 /* Makes the controller, in static memory: there is one. O(bytes of the block).
  * @return 0; -1: it could not be made. */
-int controller_init(struct controller *controller);
+int controller_init(struct controller *controller, uint32_t seed);
 
 /* The bytes of the static block that the planner lives in. */
 uint32_t controller_block_bytes(void);

@@ -35,7 +35,7 @@ static uint32_t watch(const struct controller *controller, struct milestones *re
 
 static int run(struct controller *controller, uint32_t *steps, struct milestones *reached,
                struct load *load) {
-    int status = controller_init(controller);
+    int status = controller_init(controller, SEED);
     report_task();
     while (status == 0 && !(controller->finished && controller->interactions >= INTERACTIONS)) {
         status = timed_tick(controller, load);

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+"""The playground: the same tree as run_gridworld, and the page as people use it.
+
+RLVC_RUN_GRIDWORLD is the path of the program. Screenshots at 1280 and 390 pixels are left in build/playground.
+"""
+
+import functools
+import gzip
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import sync_playwright
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+PROGRAM = os.environ["RLVC_RUN_GRIDWORLD"]
+FOLDER = ROOT / "build/playground"
+WIDTHS = {1280: 900, 390: 844}
+
+
+@pytest.fixture(scope="session")
+def folder():
+    """The playground, built."""
+    subprocess.run([sys.executable, ROOT / "examples/playground/build.py", FOLDER], check=True)
+    return FOLDER
+
+
+@functools.cache
+def learnt(*arguments):
+    """What run_gridworld learns: its report, and the policy in C."""
+    at = FOLDER / "expected"
+    at.mkdir(parents=True, exist_ok=True)
+    files = ["--json", at / "run.json", "--export-c", at / "maze.h"]
+    subprocess.run([PROGRAM, "binary", *arguments, *files], check=True, stdout=subprocess.DEVNULL)
+    return json.loads((at / "run.json").read_text()), (at / "maze.h").read_text()
+
+
+@pytest.fixture(scope="session")
+def browser():
+    with sync_playwright() as playwright:
+        # Containers have no sandbox, and little shared memory.
+        options = ["--no-sandbox", "--disable-dev-shm-usage"]
+        chromium = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=options)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(params=WIDTHS)
+def page(request, browser, folder):
+    """The page at a width. Whatever it says to the console is an error, and it may use no network."""
+    width = request.param
+    context = browser.new_context(
+        viewport={"width": width, "height": WIDTHS[width]}, has_touch=width < 800, offline=True
+    )
+    page = context.new_page()
+    said = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto((folder / "index.html").as_uri())
+    page.wait_for_selector("body[data-ready]")
+    yield page
+    assert said == []
+    wide = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
+    assert wide[0] <= wide[1], "the page is wider than the screen"
+    context.close()
+
+
+def finish(page):
+    """Learns to the end of the schedule."""
+    page.evaluate(
+        "page.then(({lab, maze}) => { while (lab.view.interactions < lab.view.schedule) maze.step(); })"
+    )
+
+
+# ------------------------------------------------------------------------- the core as WebAssembly
+
+CASES = {
+    "seed 1": ({"seed": 1}, []),
+    "seed 7": ({"seed": 7}, ["--seed", "7"]),
+    "slips": ({"seed": 2, "slip": 0.2, "distractors": 3}, ["--seed", "2", "--slip", "0.2", "--distractors", "3"]),
+    "as published": ({"seed": 1, "returns": True}, ["--criterion", "returns"]),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_same_tree_under_node(folder, case):
+    options, arguments = CASES[case]
+    done = subprocess.run(
+        ["node", HERE / "learn.js", folder, json.dumps(options)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    result, (report, header) = json.loads(done.stdout), learnt(*arguments)
+    assert result["tree"] == report["tree"]
+    assert result["interactions"] == report["interactions"]
+    assert result["c"] in ("", header)
+
+
+def test_module_is_small(folder):
+    assert len(gzip.compress((folder / "rlvc.wasm").read_bytes(), 9)) <= 60 * 1024
+
+
+# ------------------------------------------------------------------------- the page
+
+def test_same_tree_in_the_browser(page):
+    finish(page)
+    report, header = learnt()
+    tree, text = page.evaluate("page.then(({lab}) => [lab.tree, lab.policyC])")
+    assert tree == report["tree"]
+    assert text == header
+    assert page.inner_text("#optimal") == "46 of 46"
+    page.screenshot(path=FOLDER / f"maze_{page.viewport_size['width']}.png", full_page=True)
+
+
+def test_draw_run_click_save_and_load(page, tmp_path):
+    box = page.locator("#maze").bounding_box()
+    x, y = box["width"] / 18, box["height"] / 12  # the middle of the first cell
+    if page.viewport_size["width"] < 800:
+        page.locator("#maze").tap(position={"x": x, "y": y})
+    else:
+        page.locator("#maze").click(position={"x": x, "y": y})
+    assert page.evaluate("page.then(({lab}) => lab.rows[0])") == "#......#*"
+    page.click("#run")
+    page.wait_for_function("document.getElementById('interactions').textContent !== '0'")
+    page.click("#run")
+    page.click("#step")
+    page.locator("#tree g[data-node='0']").click()
+    assert "corrected" in page.inner_text("#node")
+    page.screenshot(path=FOLDER / f"node_{page.viewport_size['width']}.png", full_page=True)
+    with page.expect_download() as download:
+        page.click("#save")
+    report = json.loads(Path(download.value.path()).read_text())
+    assert report["maze"][0] == "#......#*"
+    assert report["tree"]["nodes"]
+    assert report["history"][0]["classes"] >= 1
+    maze = tmp_path / "maze.txt"
+    maze.write_text("..*\n.#.\n...\n")
+    page.set_input_files("#load", maze)
+    page.wait_for_function("document.getElementById('optimal').textContent.endsWith('of 7')")
+    maze.write_text("..*\n.##\n.#.\n")
+    page.set_input_files("#load", maze)
+    page.wait_for_function("document.getElementById('say').classList.contains('wrong')")
+    assert page.inner_text("#say") == "Row 3, column 3: no exit can be reached from this cell."
+
+
+def test_keys(page):
+    page.locator("#maze").focus()
+    for key in ("ArrowRight", "ArrowRight", "Space"):
+        page.keyboard.press(key)
+    assert page.evaluate("page.then(({lab}) => lab.rows[0])") == ".#.....#*"
+    page.click("#step")
+    page.locator("#tree g[data-node='0']").focus()
+    page.keyboard.press("Enter")
+    assert page.locator("#tree g[aria-pressed=true]").count() == 1
+    page.locator("[role=tab]").first.focus()
+    page.keyboard.press("ArrowLeft")
+    assert page.locator("#tab-path").is_visible()
+
+
+def test_large_maze(page):
+    page.select_option("#preset", "Nine rooms, 30 by 30")
+    page.evaluate("page.then(({lab, maze}) => { while (lab.view.classes < 2) lab.tick(1000); maze.refresh(true); })")
+    nodes = page.locator("#tree g.node").count()
+    assert 100 < nodes < 200, "the parts farthest from the root are folded"
+    page.locator("#tree g.folded").first.click()
+    page.locator("#node button").click()
+    assert 1 < page.locator("#tree g.node").count() != nodes
+
+
+def test_decision(page):
+    finish(page)
+    page.get_by_role("tab", name="One decision").click()
+    page.locator("#path-maze").hover(position={"x": 10, "y": 10})
+    first = page.inner_text("#decision")
+    page.click("#path-again")
+    assert page.inner_text("#decision") == first, "random bits change no decision"
+    assert first.startswith("Cell x = 0, y = 0: bit")
+    assert page.locator("#path-tree .node.on").count() > 1
+    page.screenshot(path=FOLDER / f"decision_{page.viewport_size['width']}.png", full_page=True)
+
+
+def test_pole(page):
+    page.get_by_role("tab", name="Balance a pole").click()
+    page.evaluate("page.then(({cart}) => { while (cart.view.leaves < 2) cart.work(100, Infinity); cart.draw(); })")
+    page.click("#push-left")
+    page.click("#cart-copy")
+    assert "balance_act" in page.inner_text("#cart-c")
+    page.locator("#cart-tree g[data-node='0']").click()
+    assert page.inner_text("#cart-node").startswith("Is the")
+    page.screenshot(path=FOLDER / f"pole_{page.viewport_size['width']}.png", full_page=True)
