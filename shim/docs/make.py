@@ -30,14 +30,16 @@ INCLUDE = re.compile(r"^<<< (.*):(\d+)$", re.MULTILINE)
 
 
 def pages(folder):
-    for page in HERE.glob("*.md"):
+    for page in HERE.rglob("*.md"):
         text = page.read_text(encoding="utf-8")
 
         def included(match):
             lines = (ROOT / match[1]).read_text(encoding="utf-8").splitlines()
             return "\n".join(lines[int(match[2]) - 1 :]).strip()
 
-        (folder / page.name).write_text(INCLUDE.sub(included, text), encoding="utf-8")
+        made = folder / page.relative_to(HERE)
+        made.parent.mkdir(exist_ok=True)
+        made.write_text(INCLUDE.sub(included, text), encoding="utf-8")
 
 
 def c_page(folder):

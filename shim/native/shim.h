@@ -89,6 +89,57 @@ RLVC_API rlvc_status rlvc_shim_records_read(const unsigned char *bytes, size_t c
                                             unsigned char *buffer, unsigned char *current,
                                             rlvc_shim_records *records);
 
+/* Interactions to be counted, as arrays of `count` elements. */
+typedef struct rlvc_shim_columns {
+    const unsigned char *percepts, *next; /* bits, as rlvc/bits.h has them */
+    const float *keys;                    /* rewards as rows tell them apart */
+    const float *rewards;                 /* rewards as they are summed */
+    const uint8_t *actions;
+    const uint8_t *ends; /* RLVC_GOES_ON, RLVC_TERMINATED or RLVC_TRUNCATED */
+    size_t count;
+} rlvc_shim_columns;
+
+#define RLVC_SHIM_FOLLOW_MAX 64u /* features at most, if pairs of them are counted */
+
+/* The counts of a part of a log (rlvc/counts.h), in arrays of the caller's. At first all are 0 but
+ * the indices, whose elements are all ones. */
+typedef struct rlvc_shim_table {
+    rlvc_count_row *row;    /* [rows_max] */
+    uint64_t *with;         /* [rows_max][features] */
+    uint64_t *lanes;        /* [rows_max][lanes], lanes = ceil(features / 8): not yet in `with` */
+    uint8_t *pending;       /* [rows_max] how many interactions are in `lanes` */
+    uint32_t *row_pair;     /* [rows_max] */
+    uint32_t *row_index;    /* [2 rows_max] */
+    rlvc_count_pair *pair;  /* [pairs_max] */
+    uint64_t *follow;       /* [pairs_max][features + 1][features + 1], or null */
+    rlvc_exact_sum *reward; /* [pairs_max], or null */
+    uint64_t *now, *next;   /* [pairs_max][64][ceil(features / 64)] not yet in `follow` */
+    uint32_t *waiting;      /* [pairs_max] how many interactions are in these */
+    uint32_t *pair_index;   /* [2 pairs_max] */
+    const uint64_t *gather; /* [gather_bytes][256] the bits of a cell that a byte's values have */
+    const uint64_t *spread; /* [256] bit i of a byte as byte i */
+    const uint32_t *gather_byte; /* [gather_bytes] which byte of a percept */
+    uint32_t rows, rows_max;     /* rows_max and pairs_max are powers of two */
+    uint32_t pairs, pairs_max;
+    uint32_t features, percept_bytes; /* percept_bytes = ceil(features / 8) */
+    uint32_t gather_bytes, actions;
+} rlvc_shim_table;
+
+/* Counts interactions from number *done on, which becomes the first that is not counted, or
+ * `count`.
+ * @return RLVC_OK; RLVC_E_MEMORY: there is no room for another row or pair; RLVC_E_RANGE: its
+ *         action or end; RLVC_E_REWARD. O(features / 8), and features^2 / 64 for pairs of them. */
+RLVC_API rlvc_status rlvc_shim_count(rlvc_shim_table *table, const rlvc_shim_columns *columns,
+                                     size_t *done);
+
+/* Completes the counts: nothing is pending or waiting any more. O(rows, pairs). */
+RLVC_API void rlvc_shim_count_end(rlvc_shim_table *table);
+
+/* Adds counts of the same features and cells.
+ * @return RLVC_OK; RLVC_E_MEMORY: no room; some are added then. O(features) a row, and its square
+ *         a pair. */
+RLVC_API rlvc_status rlvc_shim_count_add(rlvc_shim_table *table, const rlvc_counts *part);
+
 /* The last solution as tables.
  * @param q, samples    [classes][actions]
  * @param values, policy [classes] */

@@ -22,7 +22,9 @@ reinforcement learning".
 #     report     a run as JSON
 #     plot       figures
 #     learning   the loop around a Gymnasium environment (section 4.2.1), and its result
+#     counts     learning from counts of interactions
 #     logs       learning from recorded interactions
+#     fleet      learning from the logs of many machines
 #     bench      what the package's calls cost
 from ._version import __version__
 from .agent.agent import Agent

@@ -18,6 +18,7 @@ from .agent.planned_policy import PlannedPolicy, is_policy
 from .agent.planned_policy import read_file as read_policy
 from .agent.snapshot import read_file
 from .errors import EnvError, Error, RunError
+from .fleet import command
 from .learning.learn import Method, learn
 from .learning.run import Run
 from .learning.store import is_run, load
@@ -103,6 +104,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rlvc {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     _add_learn(commands)
+    command.add(commands)
 
     plot = commands.add_parser(
         "plot",
@@ -261,6 +263,11 @@ def _plot(arguments: argparse.Namespace) -> None:
 def _run(parsed: argparse.Namespace) -> int:
     if parsed.command == "learn":
         return _learn(parsed)
+    if parsed.command == "fleet":
+        run = command.run(parsed)
+        if run is not None:
+            _keep(run, None, parsed)
+        return 0
     if parsed.command == "plot":
         _plot(parsed)
     elif parsed.command == "show":

@@ -93,6 +93,10 @@ class LogError(Error, ValueError):
     """A log is damaged. The message names the file, the place and the fault."""
 
 
+class CountError(Error, ValueError):
+    """Interactions cannot be counted: there are too many, or too many kinds of them."""
+
+
 class MazeError(Error, ValueError):
     """The text of a maze is invalid. The message names the line, the column and the fault."""
 

@@ -107,6 +107,7 @@ THRESHOLDS_FEATURE_BYTES = 12
 THRESHOLDS_NONE = 3e+38
 SHIM_RECORDS_PERCEPT = 1048576
 SHIM_RECORDS_ROOM = 1048589
+SHIM_FOLLOW_MAX = 64
 VISION_OK = 0
 VISION_E_NULL = -101
 VISION_E_CONFIG = -102
@@ -534,6 +535,31 @@ class ShimRecords(c.Structure):
     ]
 
 
+class ShimColumns(c.Structure):
+    """``rlvc_shim_columns``."""
+
+    _fields_ = [
+        ("percepts", c.c_void_p), ("next", c.c_void_p), ("keys", c.c_void_p),
+        ("rewards", c.c_void_p), ("actions", c.c_void_p), ("ends", c.c_void_p),
+        ("count", c.c_size_t),
+    ]
+
+
+class ShimTable(c.Structure):
+    """``rlvc_shim_table``."""
+
+    _fields_ = [
+        ("row", c.c_void_p), ("with", c.c_void_p), ("lanes", c.c_void_p),
+        ("pending", c.c_void_p), ("row_pair", c.c_void_p), ("row_index", c.c_void_p),
+        ("pair", c.c_void_p), ("follow", c.c_void_p), ("reward", c.c_void_p),
+        ("now", c.c_void_p), ("next", c.c_void_p), ("waiting", c.c_void_p),
+        ("pair_index", c.c_void_p), ("gather", c.c_void_p), ("spread", c.c_void_p),
+        ("gather_byte", c.c_void_p), ("rows", c.c_uint32), ("rows_max", c.c_uint32),
+        ("pairs", c.c_uint32), ("pairs_max", c.c_uint32), ("features", c.c_uint32),
+        ("percept_bytes", c.c_uint32), ("gather_bytes", c.c_uint32), ("actions", c.c_uint32),
+    ]
+
+
 class ShimText(c.Structure):
     """``rlvc_shim_text``."""
 
@@ -628,6 +654,8 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_shim_entry": ShimEntry,
     "rlvc_shim_log": ShimLog,
     "rlvc_shim_records": ShimRecords,
+    "rlvc_shim_columns": ShimColumns,
+    "rlvc_shim_table": ShimTable,
     "rlvc_shim_text": ShimText,
     "rlvc_shim_memory": ShimMemory,
     "rlvc_shim_python": ShimPython,
@@ -740,6 +768,9 @@ CORE: Functions = {
     "rlvc_shim_records_read": (c.c_int, [
         c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p, c.c_void_p,
     ]),
+    "rlvc_shim_count": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
+    "rlvc_shim_count_end": (None, [c.c_void_p]),
+    "rlvc_shim_count_add": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_shim_tables": (c.c_int, [
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
     ]),

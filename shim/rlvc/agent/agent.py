@@ -17,6 +17,7 @@ from ..domains.domain import Domain, Percept
 from ..errors import Error, PerceptError, RangeError, ReenteredError, RewardError, SnapshotError
 from .batch import Batch, native_log
 from .config import Config
+from .handle import allocated
 from .inspect import Queries
 from .policy import Policy
 from .results import CHOICE, Choice, Progress
@@ -328,6 +329,46 @@ class Agent(Queries):
             work += progress.work
             if progress.done or budget is not None:
                 return Progress(work, progress.rounds, progress.splits, bool(progress.done))
+
+    @property
+    def successors(self) -> bool:
+        """Whether classes are also split by what follows: ``config.successors``, or its default."""
+        return bool(self._native_config.successors)
+
+    def learn_counts(self, counts: _native.Counts) -> Progress:
+        """Do a round of a learning step from counts (``core/include/rlvc/counts.h``).
+
+        Parameters
+        ----------
+        counts : rlvc_counts
+            Of :meth:`rlvc.counts.part.Part.native`. Call it until the result is ``done``, or the tree
+            tests a feature that no bit of a cell tells.
+
+        Returns
+        -------
+        Progress
+
+        Raises
+        ------
+        ConfigError
+            The agent's criterion, solver, score or domain needs more than counts.
+        RangeError
+            The counts contradict each other, or are more than 2**48 - 1.
+        """
+        size = ctypes.c_size_t()
+        self._check(self._long("rlvc_counts_size", _byref(counts), _byref(size)))
+        memory = allocated(size.value, "counts", "round the rewards")
+        progress = _native.Progress()
+        self._check(
+            self._long(
+                "rlvc_learn_counts",
+                _byref(counts),
+                memory.ctypes.data,
+                size.value,
+                _byref(progress),
+            )
+        )
+        return Progress(progress.work, progress.rounds, progress.splits, bool(progress.done))
 
     def abandon(self) -> None:
         """Give up a learning step that is under way; the next :meth:`learn` begins another.

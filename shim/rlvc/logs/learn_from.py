@@ -92,10 +92,18 @@ def _domain_of_records(log: Log, domain: Domain | int | None) -> Domain:
     return domain
 
 
-def _encoded(
+def encoded(
     log: Log, encoder: Encoder | None, space: Any, thresholds: int
 ) -> tuple[Domain, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
-    """Return the domain, the encoder, and the percepts before and after each interaction."""
+    """Return the domain, the encoder, and the percepts before and after each interaction.
+
+    Parameters
+    ----------
+    log : Log
+        Of observations.
+    encoder, space, thresholds
+        As for :func:`learn_from`.
+    """
     values = None if isinstance(log.before, list) else np.asarray(log.before)
     if encoder is None and space is None and values is not None and values.dtype == np.bool_:
         if values.ndim != 2:
@@ -195,7 +203,7 @@ def learn_from(
         domain = _domain_of_records(read_log, domain)
         encoder, before, after = None, read_log.before, read_log.after
     else:
-        domain, encoder, before, after = _encoded(read_log, encoder, space, thresholds)
+        domain, encoder, before, after = encoded(read_log, encoder, space, thresholds)
     settings = default_config(count, len(read_log), seed, config)
     run = Run(Agent(domain, settings), encoder, settings.seed, Actions(count))
     choices = np.zeros(len(read_log), CHOICE)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""A driver's checkpoint: the tree and the counts after a pass, from where a new driver goes on.
+
+The file is an NPZ with the arrays of the counts, the agent's snapshot and a line of JSON. It is
+replaced as a whole.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..counts.part import Part
+from ..counts.rounds import Progress
+from ..errors import ConfigError, LogError
+from ..files import read, replace
+
+_VERSION = 1
+
+
+@dataclasses.dataclass
+class State:
+    """What a checkpoint holds.
+
+    Attributes
+    ----------
+    cell : tuple of int
+        The features that the counts tell apart.
+    part : Part
+    snapshot : bytes
+        Of the agent, as it was before it saw the counts.
+    progress : Progress
+    seen : dict
+        What was read in a pass.
+    """
+
+    cell: tuple[int, ...]
+    part: Part
+    snapshot: bytes
+    progress: Progress
+    seen: dict[str, Any]
+
+
+def fingerprint(*what: Any) -> str:
+    """Return a hash of what a checkpoint was made from.
+
+    Parameters
+    ----------
+    *what : object
+        Pieces, config and options, whose ``repr`` tells all.
+    """
+    return hashlib.sha256(repr(what).encode()).hexdigest()
+
+
+def save(file: str | Path, made_from: str, state: State) -> None:
+    """Write a checkpoint. A failure leaves the old one.
+
+    Parameters
+    ----------
+    file : str or Path
+    made_from : str
+        A :func:`fingerprint`.
+    state : State
+    """
+    head = {
+        "version": _VERSION,
+        "made_from": made_from,
+        "cell": state.cell,
+        "progress": dataclasses.asdict(state.progress),
+        "seen": state.seen,
+    }
+    arrays = {
+        field.name: array
+        for field in dataclasses.fields(Part)
+        if (array := getattr(state.part, field.name)) is not None
+    }
+    content = io.BytesIO()
+    np.savez(
+        content,
+        head=np.frombuffer(json.dumps(head).encode(), np.uint8),
+        snapshot=np.frombuffer(state.snapshot, np.uint8),
+        **arrays,
+    )
+    replace(file, content.getvalue())
+
+
+def load(file: str | Path, made_from: str) -> State | None:
+    """Read a checkpoint, if there is one.
+
+    Parameters
+    ----------
+    file : str or Path
+    made_from : str
+        A :func:`fingerprint`.
+
+    Raises
+    ------
+    LogError
+        It is damaged.
+    ConfigError
+        It was made from other data or options.
+    """
+    if not Path(file).exists():
+        return None
+    try:
+        with np.load(io.BytesIO(read(file)), allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+        head = json.loads(arrays.pop("head").tobytes())
+        snapshot = arrays.pop("snapshot").tobytes()
+        part = Part(**({"follow": None, "reward": None} | arrays))
+        state = State(
+            tuple(head["cell"]), part, snapshot, Progress(**head["progress"]), head["seen"]
+        )
+        same = (head["version"], head["made_from"]) == (_VERSION, made_from)
+    except Exception as error:  # of zipfile, of numpy's parser, of JSON
+        raise LogError(f"{file}: damaged: {error}: delete it to begin anew") from error
+    if not same:
+        raise ConfigError(
+            f"checkpoint: {file} was made from other data or options: name another file, or delete it"
+        )
+    return state

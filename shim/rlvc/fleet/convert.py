@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: MIT
+"""From any log to Parquet files of the layout, and back."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..checks import whole
+from ..counts.table import Columns
+from ..domains.bits import Bits
+from ..errors import ConfigError, LogError
+from ..files import replace
+from ..learning.encode import Encoder
+from ..logs import read
+from ..logs.learn_from import encoded
+from . import layout
+from .sources import blocks, columns_of_log, filesystem_of, opened
+
+FILE_ROWS = 1 << 22  # interactions in a file, and what is left of the last one's episode
+
+
+def _episodes(ends: npt.NDArray[np.uint8], rows: int) -> Iterator[slice]:
+    """Cut a log into files: whole episodes, of at least so many interactions."""
+    last = np.flatnonzero(ends != 0)
+    start = 0
+    while start < len(ends):
+        index = np.searchsorted(last, start + rows - 1)
+        stop = int(last[index]) + 1 if index < len(last) else len(ends)
+        yield slice(start, stop)
+        start = stop
+
+
+def convert(
+    log: Any,
+    folder: str | Path,
+    *,
+    columns: Sequence[str] | None = None,
+    actions: int | None = None,
+    space: Any = None,
+    encoder: Encoder | None = None,
+    file_rows: int = FILE_ROWS,
+    prefix: str = "part",
+) -> list[str]:
+    """Write a log as Parquet files of the layout (:mod:`rlvc.fleet.layout`).
+
+    Parameters
+    ----------
+    log : dict of arrays, path of a file, Minari data set or its name
+        What :func:`rlvc.learn_from` reads.
+    folder : str or Path
+        A folder, which is made, or an address such as ``s3://bucket/folder``.
+    columns, actions, space, encoder
+        As for :func:`rlvc.learn_from`. The percepts must come out as bits.
+    file_rows : int
+        Interactions in a file; its last episode is kept whole.
+    prefix : str
+        Beginning of the files' names.
+
+    Returns
+    -------
+    list of str
+        The files.
+
+    Raises
+    ------
+    LogError
+        The log is damaged.
+    ConfigError
+        The percepts are not bits.
+    """
+    file_rows = whole("file_rows", file_rows, 1, 2**31)
+    source = read(log, columns)
+    if source.record_bytes:
+        bits = 8 * source.record_bytes
+        all_of_it = columns_of_log(source, bits)
+    else:
+        domain, _, before, after = encoded(source, encoder, space, 0)
+        if not isinstance(domain, Bits):
+            raise ConfigError(
+                f"{source.where}: percepts of {type(domain).__name__}; a fleet learns from bits: "
+                "pass an encoder to bits"
+            )
+        bits = domain.bits
+        source.before, source.after, source.record_bytes = before, after, domain.percept_bytes
+        all_of_it = columns_of_log(source, bits)
+    count = whole(
+        "actions", actions or source.action_count or int(source.actions.max()) + 1, 1, 255
+    )
+    filesystem, within = filesystem_of(str(folder))
+    filesystem.create_dir(within, recursive=True)
+    names = []
+    for number, some in enumerate(_episodes(all_of_it.ends, file_rows)):
+        exploited = None if source.exploited is None else source.exploited[some]
+        name = f"{prefix}-{number:05d}.parquet"
+        writer = layout.Writer(
+            f"{within}/{name}", bits, count, exploited is not None, filesystem=filesystem
+        )
+        writer.write(_cut(all_of_it, some), exploited)
+        writer.close()
+        names.append(f"{str(folder).rstrip('/')}/{name}")
+    return names
+
+
+def _cut(columns: Columns, some: slice) -> Columns:
+    return Columns(
+        columns.percepts[some],
+        columns.next_percepts[some],
+        columns.actions[some],
+        columns.rewards[some],
+        columns.ends[some],
+        columns.keys[some],
+    )
+
+
+def export(source: str | Path | Sequence[str | Path], file: str | Path) -> int:
+    """Write logs of the layout as one NPZ file, which :func:`rlvc.learn_from` reads.
+
+    Parameters
+    ----------
+    source : str, Path or sequence of these
+        As for :func:`rlvc.fleet.learn_from`.
+    file : str or Path
+        Ends in ``.npz``.
+
+    Returns
+    -------
+    int
+        The number of interactions. All of them are in memory at once.
+
+    Raises
+    ------
+    LogError
+        A file is broken.
+    """
+    if Path(file).suffix != ".npz":
+        raise ConfigError(f"file: {file} does not end in .npz")
+    found = opened(source)
+    parts = []
+    for piece in found.pieces:
+        for _, block in blocks(piece, found.bits):
+            if isinstance(block, LogError):
+                raise block
+            parts.append(block)
+
+    def whole_of(name: str) -> npt.NDArray[Any]:
+        return np.concatenate([getattr(part, name) for part in parts])
+
+    def bits_of(name: str) -> npt.NDArray[np.bool_]:
+        packed = whole_of(name)
+        return np.unpackbits(packed, axis=1, count=found.bits, bitorder="little").astype(np.bool_)
+
+    ends = whole_of("ends")
+    content = io.BytesIO()
+    np.savez_compressed(
+        content,
+        observations=bits_of("percepts"),
+        next_observations=bits_of("next_percepts"),
+        actions=whole_of("actions"),
+        rewards=whole_of("rewards"),
+        terminated=ends == 1,
+        truncated=ends == 2,
+    )
+    replace(file, content.getvalue())
+    return len(ends)

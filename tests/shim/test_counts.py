@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: MIT
+"""Counting: the loop in C against numpy, in any parts and any order; and what is refused."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import worlds
+
+import rlvc
+from rlvc.counts import rounds
+from rlvc.counts.part import Part, Question
+from rlvc.counts.table import Columns, Table, added
+from rlvc.errors import ConfigError, CountError, LogError, RangeError
+
+
+def random_columns(rng, bits, count, actions=3):
+    size = -(-bits // 8)
+    record = rng.integers(0, 256, (2, count, size), dtype=np.uint8)
+    record[:, :, -1] &= (1 << (bits - 8 * (size - 1))) - 1
+    record[:, rng.random(count) < 0.5] &= 3  # so that many are alike
+    rewards = rng.choice(np.array([0.0, -0.0, 1.5, -7.25], np.float32), count)
+    return Columns(record[0], record[1], rng.integers(0, actions, count, dtype=np.uint8), rewards,
+                   rng.choice(np.array([0, 0, 1, 2], np.uint8), count), rewards)  # fmt: skip
+
+
+def cells(packed, tested):
+    bit = [packed[:, f // 8].astype(np.uint64) >> np.uint64(f % 8) & np.uint64(1) for f in tested]
+    return sum((b << np.uint64(i) for i, b in enumerate(bit)), np.zeros(len(packed), np.uint64))
+
+
+def reference(some, ask):
+    """The same counts by numpy, slowly."""
+    over = some.ends == 1
+    now, after = (np.unpackbits(side, axis=1, count=ask.features, bitorder="little").astype(np.int64)
+                  for side in (some.percepts, some.next_percepts))  # fmt: skip
+    after[over] = 0
+    next_cell = np.where(over, 0, cells(some.next_percepts, ask.tested)).astype(np.uint64)
+    now_cell = cells(some.percepts, ask.tested)
+    rows, pairs = {}, {}
+    for i in range(len(some)):
+        reward = float(some.keys[i] + np.float32(0))
+        key = (int(now_cell[i]), int(some.actions[i]), bool(over[i]), reward, int(next_cell[i]))
+        rows.setdefault(key, []).append(i)
+        pairs.setdefault(key[:2], []).append(i)
+    counted = {key: (len(of), now[of].sum(0).tolist()) for key, of in rows.items()}
+    one = np.ones((len(some), 1), np.int64)
+    now, after = np.hstack([one, now]), np.hstack([one, after])
+    follow = {key: (now[of].T @ after[of]).tolist() for key, of in pairs.items()}
+    return counted, follow
+
+
+def as_dicts(part):
+    rows = {(int(r["now"]), int(r["action"]), bool(r["terminated"]), float(r["reward"]), int(r["next"])):
+            (int(r["count"]), part.present[i].tolist()) for i, r in enumerate(part.row)}  # fmt: skip
+    pairs = {(int(p["now"]), int(p["action"])): i for i, p in enumerate(part.pair)}
+    follow = {key: part.follow[i].tolist() for key, i in pairs.items()} if part.follow is not None else None
+    return rows, follow
+
+
+def counted(some, ask):
+    table = Table(ask)
+    table.count(some)
+    return table.part()
+
+
+@pytest.mark.parametrize(
+    ("bits", "tested"),
+    [(1, ()), (3, (0, 1, 2)), (8, (7,)), (18, (0, 9, 17)), (18, ()), (63, (1, 62)), (64, (0, 63)),
+     (64, tuple(range(64))), (65, (64, 3)), (300, (299, 5, 128))],
+)  # fmt: skip
+def test_same_as_numpy(bits, tested):
+    rng = np.random.default_rng(bits + len(tested))
+    ask = Question(bits, 3, tuple(sorted(tested)), follow=bits <= 64)
+    some = random_columns(rng, bits, 3000)
+    rows, follow = reference(some, ask)
+    found_rows, found_follow = as_dicts(counted(some, ask))
+    assert found_rows == rows
+    if ask.follow:
+        assert found_follow == follow
+
+
+def test_parts_in_any_order_add_up():
+    some = worlds.maze(20_000, rewards="tenths", slip=0.1)
+    ask = Question(worlds.BITS, 4, (0, 1, 2, 15, 16), sums=True)
+    whole = counted(some, ask).digest()
+    rng = np.random.default_rng(1)
+    for pieces in (1, 2, 4, 7, 300):
+        order = rng.permutation(len(some))
+        parts = [counted(worlds.part_of(some, index), ask) for index in np.array_split(order, pieces)]
+        rng.shuffle(parts)
+        assert added(ask, parts).digest() == whole, pieces
+    two = counted(some, ask)
+    twice = added(ask, [two, two])
+    assert twice.interactions == 2 * len(some)
+    assert (twice.present == 2 * two.present).all()
+
+
+def test_sums_of_rewards_are_exact():
+    from fractions import Fraction
+
+    rng = np.random.default_rng(5)
+    some = random_columns(rng, 4, 500)
+    rewards = (rng.standard_normal(500) * 10.0 ** rng.integers(-40, 12, 500)).astype(np.float32)
+    some = dataclasses.replace(some, rewards=rewards, keys=np.zeros(500, np.float32))
+    part = counted(some, Question(4, 3, (0, 1), sums=True))
+    sums = {}
+    cell = cells(some.percepts, (0, 1))
+    for i in range(500):
+        key = int(cell[i]), int(some.actions[i])
+        sums[key] = sums.get(key, 0) + Fraction(float(rewards[i]))
+    for pair, words in zip(part.pair, part.reward, strict=True):
+        number = sum(int(word) << 64 * k for k, word in enumerate(words))
+        number -= (number >> 255) << 256
+        assert Fraction(number, 2**149) == sums[int(pair["now"]), int(pair["action"])]
+
+
+def test_table_grows_up_to_its_memory():
+    rng = np.random.default_rng(2)
+    some = random_columns(rng, 16, 40_000)
+    ask = Question(16, 3, tuple(range(16)))
+    rows, _ = reference(some, ask)
+    assert as_dicts(counted(some, ask))[0] == rows
+    small = Table(ask, memory=2 << 20)
+    with pytest.raises(CountError, match="more than 2097152 bytes"):
+        small.count(some)
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "text"),
+    [("actions", 3, "interaction 41: action: 3 is not in"), ("ends", 3, "interaction 41: end: 3"),
+     ("rewards", np.nan, "interaction 41: reward: nan"), ("rewards", 2e12, "reward: 1999999991808.0 is not"),
+     ("rewards", -np.inf, "reward: -inf")],
+)  # fmt: skip
+def test_faults_are_named(field, value, text):
+    some = random_columns(np.random.default_rng(3), 8, 100)
+    array = getattr(some, field).copy()
+    array[41] = value
+    with pytest.raises(LogError, match=text):
+        counted(dataclasses.replace(some, **{field: array}), Question(8, 3))
+
+
+# ------------------------------------------------------------------ learning
+
+
+def learn(some, tested=(), **config):
+    """The agent that counts make, and the passes."""
+    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001} | config
+    agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
+    progress = rounds.Progress()
+    rounds.learn(agent, lambda cell: counted(some, rounds.question_of(agent, cell, False)), progress,
+                 set(tested))  # fmt: skip
+    return agent, progress
+
+
+def expect_same(one, other):
+    assert one.print("json") == other.print("json")
+    assert one.q.tobytes() == other.q.tobytes()
+    assert one.samples.tobytes() == other.samples.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("slip", "rewards"), [(0.0, "plain"), (0.1, "plain"), (0.0, "tenths"), (0.1, "tenths"), (0.0, "normal")]
+)
+def test_same_tree_as_in_memory(slip, rewards):
+    some = worlds.maze(20_000, slip=slip, rewards=rewards)
+    expected = rlvc.learn_from(worlds.log_of(some), actions=4).agent
+    agent, progress = learn(some)
+    expect_same(agent, expected)
+    assert progress.passes <= 1 + len(rounds.tested_by(agent))
+    guessed, progress = learn(some, rounds.tested_by(agent))
+    expect_same(guessed, expected)
+    assert progress.passes == 1
+
+
+def test_what_counts_cannot_do_is_refused():
+    for config, text in (
+        ({"criterion": "returns"}, "returns depend on the order"),
+        ({"solver": "sarsa"}, "sarsa depends on the order"),
+        ({"solver": "q_learning"}, "q_learning depends on the order"),
+        ({"score": "ranks"}, "ranks are not made from counts"),
+    ):
+        with pytest.raises(ConfigError, match=text):
+            rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **config)))
+    with pytest.raises(ConfigError, match="counts are of bits"):
+        rounds.refuse(rlvc.Agent(rlvc.Thresholds(2), 2))
+
+
+CELL = (0, 1, 2, 3, 15, 16, 17)  # the bits of the maze that say where the walker is
+
+
+def scaled(part, times):
+    times = np.uint64(times)
+    row = part.row.copy()
+    row["count"] *= times
+    follow = None if part.follow is None else part.follow * times
+    return Part(row, part.present * times, part.pair, follow, None)
+
+
+@pytest.mark.parametrize("total", [2**31, 2**32, 10**11, 2**47])
+def test_more_than_any_ring_holds(total):
+    """Scaled counts scale luck as well; but where rewards follow from the cell, luck ends with it."""
+    some = worlds.maze(50_000)
+    fields = {"classes": 60, "discount": 0.99, "tolerance": 0.001, "successors": False}
+    agents = []
+    for times in (1, total // len(some)):
+        agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
+        part = scaled(counted(some, rounds.question_of(agent, CELL, False)), times)
+        rounds.learn(agent, lambda _cell, part=part: part, rounds.Progress(), set(CELL))
+        agents.append(agent)
+    small, large = agents
+    assert rounds.tested_by(large) == rounds.tested_by(small) == set(CELL)
+    assert large.statistics.interactions == total // len(some) * len(some)
+    values = [agent.values[agent.predict(some.percepts[:2000]).class_id] for agent in agents]
+    np.testing.assert_allclose(*values, atol=0.01)
+
+
+def test_too_many_is_an_error():
+    agent = rlvc.Agent(worlds.BITS, 4)
+    part = scaled(counted(worlds.maze(1000), rounds.question_of(agent, (), False)), 2**48)
+    with pytest.raises(RangeError):
+        agent.learn_counts(part.native(np.arange(18, dtype=np.uint16), np.zeros(0, np.uint32)))

@@ -1,0 +1,385 @@
+# SPDX-License-Identifier: MIT
+"""Fleets: the same bytes from any files and any engine, also when workers and drivers are killed.
+
+Clusters listen on this machine alone and have a home of their own. RLVC_FLEET_LONG=1 asks for more
+interactions.
+"""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+import worlds
+
+import rlvc
+from rlvc.errors import ConfigError, CountError, LogError
+
+pytest.importorskip("pyarrow")
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+import rlvc.fleet
+from rlvc.fleet import checkpoint, engines, layout, sources
+
+COUNT = 1_000_000 if os.environ.get("RLVC_FLEET_LONG") else 20_000
+
+
+def expect_same(run, expected):
+    assert run.agent.print("json") == expected.print("json")
+    assert run.agent.q.tobytes() == expected.q.tobytes()
+    assert run.agent.samples.tobytes() == expected.samples.tobytes()
+
+
+def write(path, some, bits=worlds.BITS, actions=4):
+    writer = layout.Writer(str(path), bits, actions)
+    writer.write(some)
+    writer.close()
+
+
+def shards(folder, some, count, rng=None):
+    """Files of a log, in order or shuffled, rows and files."""
+    folder.mkdir()
+    order = np.arange(len(some)) if rng is None else rng.permutation(len(some))
+    names = [f"part-{i}.parquet" for i in range(count)]
+    if rng is not None:
+        rng.shuffle(names)
+    for name, index in zip(names, np.array_split(order, count), strict=True):
+        write(folder / name, worlds.part_of(some, index))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def some():
+    return worlds.maze(COUNT, slip=0.1, rewards="tenths")
+
+
+@pytest.fixture(scope="module")
+def expected(some):
+    return rlvc.learn_from(worlds.log_of(some), actions=4, capacity=2 * COUNT).agent
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, some):
+    return shards(tmp_path_factory.mktemp("log") / "7", some, 7)
+
+
+# ------------------------------------------------------------------ any files
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 7])
+def test_any_shards(tmp_path, some, expected, count):
+    run = rlvc.fleet.learn_from(shards(tmp_path / "a", some, count))
+    expect_same(run, expected)
+    assert run.report.interactions == run.interactions == COUNT
+    assert run.report.passes <= 1 + len({split.feature for split in run.agent.splits})
+    shuffled = shards(tmp_path / "b", some, count, np.random.default_rng(count))
+    expect_same(rlvc.fleet.learn_from(shuffled), expected)
+
+
+@pytest.mark.parametrize(("slip", "rewards"), [(0.0, "plain"), (0.0, "tenths"), (0.1, "plain")])
+def test_any_rewards(tmp_path, slip, rewards):
+    some = worlds.maze(COUNT, seed=3, slip=slip, rewards=rewards)
+    expected = rlvc.learn_from(worlds.log_of(some), actions=4, capacity=2 * COUNT).agent
+    expect_same(rlvc.fleet.learn_from(shards(tmp_path / "a", some, 3)), expected)
+
+
+@pytest.mark.parametrize("name", ["FrozenLake-v1", "Taxi-v4"])
+def test_logs_of_environments(tmp_path, name):
+    gymnasium = pytest.importorskip("gymnasium")
+    env = gymnasium.make(name)
+    encoder = rlvc.Encoder(env.observation_space)
+    log = worlds.walk(env, encoder, 6000, 1)
+    actions = int(env.action_space.n)
+    expected = rlvc.learn_from(log, actions=actions).agent
+    files = rlvc.fleet.convert(log, tmp_path / "log", actions=actions, file_rows=1000)
+    assert len(files) > 2
+    expect_same(rlvc.fleet.learn_from(tmp_path / "log"), expected)
+
+
+def test_a_sample_saves_passes(folder, expected):
+    run = rlvc.fleet.learn_from(folder, sample=0)
+    assert run.report.passes > 1
+    guessed = rlvc.fleet.learn_from(folder, sample=COUNT // 8)
+    assert guessed.report.passes <= 2
+    expect_same(guessed, expected)
+
+
+def test_files_of_other_kinds(tmp_path, some, expected):
+    rlvc.fleet.export(shards(tmp_path / "a", some, 2), tmp_path / "log.npz")
+    expect_same(rlvc.fleet.learn_from(tmp_path / "log.npz"), expected)
+    again = rlvc.learn_from(tmp_path / "log.npz", actions=4, capacity=2 * COUNT).agent
+    assert again.print("json") == expected.print("json")
+
+
+def test_columns_of_rllib(tmp_path, some, expected):
+    log = worlds.log_of(some)
+    flat = {name: pa.FixedSizeListArray.from_arrays(pa.array(log[key].ravel()), worlds.BITS)
+            for name, key in (("obs", "observations"), ("new_obs", "next_observations"))}  # fmt: skip
+    table = pa.table(flat | {
+        "eps_id": np.zeros(COUNT, np.int64), "actions": some.actions.astype(np.int64), "rewards": some.rewards,
+        "terminateds": log["terminated"], "truncateds": log["truncated"], "t": np.arange(COUNT),
+    })  # fmt: skip
+    pq.write_table(table, tmp_path / "log.parquet", row_group_size=7000)
+    expect_same(rlvc.fleet.learn_from(tmp_path / "log.parquet", actions=4), expected)
+    with pytest.raises(ConfigError, match="actions"):
+        rlvc.fleet.learn_from(tmp_path / "log.parquet")
+    pq.write_table(table.drop_columns(["new_obs"]), tmp_path / "log.parquet")
+    with pytest.raises(LogError, match="column new_obs: missing"):
+        rlvc.fleet.learn_from(tmp_path / "log.parquet", actions=4)
+
+
+def test_an_address(tmp_path, some, expected):
+    folder = shards(tmp_path / "a", some, 2)
+    expect_same(rlvc.fleet.learn_from(folder.as_uri()), expected)
+
+
+def test_rounded_rewards(tmp_path):
+    some = worlds.maze(COUNT, rewards="normal")
+    folder = shards(tmp_path / "a", some, 3, np.random.default_rng(0))
+    exact = rlvc.fleet.learn_from(folder)
+    for options in ({"reward_bits": 7}, {"reward_grid": 0.001}):
+        run = rlvc.fleet.learn_from(folder, **options)
+        assert {s.feature for s in run.agent.splits} == {s.feature for s in exact.agent.splits}
+        assert run.report.rows < exact.report.rows
+        probe = some.percepts[:500]
+        values = [r.agent.values[r.agent.predict(probe).class_id] for r in (run, exact)]
+        np.testing.assert_allclose(*values, atol=0.1)
+        again = rlvc.fleet.learn_from(shards(tmp_path / str(options), some, 2), **options)
+        expect_same(again, run.agent)
+    with pytest.raises(ConfigError, match="give one of them"):
+        rlvc.fleet.learn_from(folder, reward_bits=7, reward_grid=0.1)
+
+
+# ------------------------------------------------------------------ broken files
+
+
+def test_whole_episodes_in_each_file(tmp_path, some):
+    files = rlvc.fleet.convert(worlds.log_of(some), tmp_path / "log", actions=4, file_rows=3000)
+    assert len(files) > 3
+    ends = [pq.read_table(file)["end"][-1].as_py() for file in files]
+    assert 0 not in ends
+    kept = np.concatenate([pq.read_table(file)["reward"].to_numpy() for file in files])
+    np.testing.assert_array_equal(kept, some.rewards)
+
+
+def test_another_version(tmp_path, some):
+    write(tmp_path / "a.parquet", some)
+    table = pq.read_table(tmp_path / "a.parquet")
+    for meta, text in (
+        ({b"rlvc.version": b"2", b"rlvc.bits": b"18", b"rlvc.actions": b"4"}, "rlvc.version is 2"),
+        ({b"rlvc.version": b"1", b"rlvc.bits": b"x", b"rlvc.actions": b"4"}, "are not numbers"),
+        ({b"rlvc.version": b"1", b"rlvc.bits": b"99", b"rlvc.actions": b"4"}, "column percept: "),
+        ({}, "rlvc.version is missing"),
+    ):
+        pq.write_table(table.replace_schema_metadata(meta), tmp_path / "a.parquet")
+        with pytest.raises(LogError, match=text):
+            rlvc.fleet.learn_from(tmp_path)
+
+
+def test_files_that_do_not_fit_together(tmp_path, some):
+    write(tmp_path / "a.parquet", some)
+    write(tmp_path / "b.parquet", some, actions=5)
+    with pytest.raises(LogError, match=r"b\.parquet: 5 actions"):
+        rlvc.fleet.learn_from(tmp_path)
+    write(tmp_path / "b.parquet", some, bits=24)
+    with pytest.raises(LogError, match=r"b\.parquet: 24 bits"):
+        rlvc.fleet.learn_from(tmp_path)
+
+
+def test_a_broken_row_group_is_named(tmp_path, some, monkeypatch):
+    monkeypatch.setattr(layout, "GROUP_ROWS", 4000)
+    good, bad = tmp_path / "a.parquet", tmp_path / "b.parquet"
+    write(good, worlds.part_of(some, slice(0, 12_000)))
+    write(bad, worlds.part_of(some, slice(12_000, 20_000)))
+    column = pq.ParquetFile(bad).metadata.row_group(1).column(3)
+    content = bytearray(bad.read_bytes())
+    place = column.data_page_offset + 30
+    content[place : place + 400] = bytes(400)
+    bad.write_bytes(content)
+    with pytest.raises(LogError, match=r"b\.parquet: row group 1: column next_percept"):
+        rlvc.fleet.learn_from(tmp_path)
+    run = rlvc.fleet.learn_from(tmp_path, skip_broken=True)
+    assert run.report.interactions == 16_000
+    assert len(run.report.skipped) == 1
+    assert "row group 1" in run.report.skipped[0]
+    rest = worlds.part_of(some, slice(0, 16_000))
+    expected = rlvc.learn_from(worlds.log_of(rest), actions=4)
+    expect_same(run, expected.agent)
+
+
+def test_an_interaction_out_of_range_is_named(tmp_path, some):
+    actions = some.actions.copy()
+    actions[17] = 200
+    write(tmp_path / "a.parquet", worlds.Columns(some.percepts, some.next_percepts, actions, some.rewards,
+                                                 some.ends, some.keys))  # fmt: skip
+    with pytest.raises(LogError, match="row group 0: interaction 17: action: 200"):
+        rlvc.fleet.learn_from(tmp_path)
+    with pytest.raises(LogError, match="holds no interaction"):
+        rlvc.fleet.learn_from(tmp_path, skip_broken=True)
+
+
+def test_a_truncated_file(tmp_path, some):
+    write(tmp_path / "a.parquet", some)
+    content = (tmp_path / "a.parquet").read_bytes()
+    (tmp_path / "a.parquet").write_bytes(content[: len(content) // 2])
+    with pytest.raises(LogError, match=r"a\.parquet: cannot be read as Parquet"):
+        rlvc.fleet.learn_from(tmp_path)
+    with pytest.raises(LogError, match="no such file or folder"):
+        rlvc.fleet.learn_from(tmp_path / "nothing")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(LogError, match="holds no file that ends in"):
+        rlvc.fleet.learn_from(tmp_path / "empty")
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [({"criterion": "returns"}, "returns depend on the order"), ({"solver": "sarsa"}, "sarsa depends"),
+     ({"cluster": "spark://x"}, "cluster: 'spark://x' is neither"), ({"reward_bits": 23}, "reward_bits"),
+     ({"reward_grid": -1.0}, "reward_grid"), ({"domain": 40}, "domain: 40 bits"),
+     ({"domain": rlvc.Thresholds(3)}, "counts are of bits"), ({"no_such": 1}, "no such field")],
+)  # fmt: skip
+def test_refusals(folder, options, text):
+    with pytest.raises(ConfigError, match=text):
+        rlvc.fleet.learn_from(folder, **options)
+
+
+def test_memory_is_bounded(tmp_path):
+    some = worlds.maze(COUNT, rewards="normal")
+    write(tmp_path / "a.parquet", some)
+    with pytest.raises(CountError, match="reward_bits or reward_grid"):
+        rlvc.fleet.learn_from(tmp_path, memory=1 << 20)
+
+
+# ------------------------------------------------------------------ checkpoints
+
+
+def test_a_driver_that_is_killed_goes_on(tmp_path, folder, expected):
+    file = tmp_path / "checkpoint"
+    for kill_after in (1, 1, 2):
+        child = multiprocessing.get_context("fork").Process(target=_killed, args=(folder, file, kill_after))
+        child.start()
+        child.join()
+        assert child.exitcode == -signal.SIGKILL
+        assert file.exists()
+    run = rlvc.fleet.learn_from(folder, checkpoint=file, sample=0, progress=False)
+    expect_same(run, expected)
+    whole = rlvc.fleet.learn_from(folder, sample=0)
+    assert run.report == whole.report
+    assert run.agent.snapshot() == whole.agent.snapshot()
+    with pytest.raises(ConfigError, match="made from other data or options"):
+        rlvc.fleet.learn_from(folder, checkpoint=file, discount=0.5)
+    file.write_bytes(file.read_bytes()[:-100])
+    with pytest.raises(LogError, match="damaged"):
+        rlvc.fleet.learn_from(folder, checkpoint=file)
+
+
+def _killed(folder, file, after):
+    """Dies as soon as it has saved so many checkpoints."""
+    saved = []
+    save = checkpoint.save
+
+    def save_and_die(*arguments):
+        save(*arguments)
+        saved.append(1)
+        if len(saved) == after:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    checkpoint.save = save_and_die
+    rlvc.fleet.learn_from(folder, checkpoint=file, sample=0)
+
+
+# ------------------------------------------------------------------ engines
+
+
+def deadly(marker):
+    """The task of an engine, whose first worker is killed at work."""
+
+    def count(counting, piece):
+        import os
+        import signal
+
+        try:
+            os.close(os.open(marker, os.O_CREAT | os.O_EXCL))
+        except FileExistsError:
+            return counting.piece(piece)
+        os.kill(os.getpid(), signal.SIGKILL)
+        return None
+
+    return count
+
+
+@pytest.mark.parametrize("cluster", ["dask", "ray"])
+def test_engines_and_a_worker_that_is_killed(tmp_path, folder, expected, monkeypatch, cluster):
+    pytest.importorskip({"dask": "distributed", "ray": "ray"}[cluster])
+    monkeypatch.setenv("HOME", str(tmp_path))
+    marker = tmp_path / "killed"
+    monkeypatch.setattr(engines, "count", deadly(str(marker)))
+    run = rlvc.fleet.learn_from(folder, cluster=cluster, workers=2, sample=0)
+    assert marker.exists()
+    expect_same(run, expected)
+    assert run.report == rlvc.fleet.learn_from(folder, sample=0).report
+
+
+def test_importing_imports_no_engine():
+    program = textwrap.dedent("""
+        import sys, rlvc, rlvc.fleet
+        found = {"ray", "dask", "distributed", "pyarrow", "fsspec"} & set(sys.modules)
+        assert not found, found
+    """)
+    subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_pieces_hold_some_row_groups(tmp_path, some, monkeypatch):
+    monkeypatch.setattr(layout, "GROUP_ROWS", 1000)
+    write(tmp_path / "a.parquet", some)
+    found = sources.opened(tmp_path)
+    assert [len(piece.groups) for piece in found.pieces] == [4] * (COUNT // 4000)
+    assert found.rows == COUNT
+    assert (found.bits, found.actions) == (18, 4)
+
+
+# ------------------------------------------------------------------ back to the robots
+
+
+def test_a_controller_goes_on_from_the_snapshot(tmp_path, folder, some, expected):
+    run = rlvc.fleet.learn_from(folder)
+    run.agent.save(tmp_path / "agent.rlvc")
+    agent = rlvc.Agent.load(tmp_path / "agent.rlvc")
+    assert agent.config.capacity == 2000
+    assert agent.print("json") == expected.print("json")
+    first = worlds.part_of(some, slice(0, 1000))
+    agent.observe_many(first.percepts, np.zeros(1000, rlvc.CHOICE), first.rewards, first.next_percepts,
+                       np.where(first.ends == 1, 1, 2).astype(np.uint8))  # fmt: skip
+    assert agent.learn().done
+    agent.check()
+    assert agent.classes >= expected.classes
+    assert "if" in run.agent.export_c()
+
+
+def test_the_command(tmp_path, some, expected):
+    def rlvc_fleet(*arguments, status=0):
+        done = subprocess.run([sys.executable, "-m", "rlvc", "fleet", *map(str, arguments)],
+                              capture_output=True, text=True)  # fmt: skip
+        assert done.returncode == status, done.stderr
+        return done
+
+    np.savez(tmp_path / "log.npz", **worlds.log_of(some))
+    files = rlvc_fleet("convert", tmp_path / "log.npz", tmp_path / "log", "--actions", 4,
+                       "--file-rows", COUNT // 3).stdout.split()  # fmt: skip
+    assert len(files) == 3
+    done = rlvc_fleet("learn", *files, "--quiet", "--save", tmp_path / "run", "--c", tmp_path / "policy.h",
+                      "--checkpoint", tmp_path / "checkpoint")  # fmt: skip
+    assert f"{expected.classes} classes after {COUNT} interactions" in done.stdout
+    assert rlvc.load(tmp_path / "run").agent.print("json") == expected.print("json")
+    assert "policy_act" in (tmp_path / "policy.h").read_text()
+    done = rlvc_fleet("export", *files, tmp_path / "back.npz")
+    assert done.stdout == f"{COUNT} interactions\n"
+    with np.load(tmp_path / "back.npz") as back:
+        np.testing.assert_array_equal(back["actions"], some.actions)
+    done = rlvc_fleet("learn", tmp_path / "none", status=1)
+    assert done.stderr.count("\n") == 1

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What learning from counts costs: a random walk in Sutton's maze, in Parquet files, by one process that counts, by two
+of them, and by the learner in memory. Prints JSON. Needs the package with its extras `fleet` and `dask`."""
+
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import multiprocessing
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+import rlvc
+import rlvc.fleet
+from rlvc.counts.part import Question
+from rlvc.counts.table import Columns, Table
+from rlvc.fleet import layout
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "tests/shim"))
+import worlds
+
+FILES = 28
+
+
+def write(folder, interactions):
+    """Files of the layout, each of its own walkers."""
+    for number in range(FILES):
+        some = worlds.maze(interactions // FILES, seed=number)
+        writer = layout.Writer(f"{folder}/part-{number:02d}.parquet", worlds.BITS, 4)
+        writer.write(some)
+        writer.close()
+
+
+def apart(function, *arguments):
+    """The result of a function in a process of its own, its seconds and its most memory."""
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(1, context) as pool:
+        return pool.submit(measured, function, *arguments).result()
+
+
+def measured(function, *arguments):
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    began = time.perf_counter()
+    result = function(*arguments)
+    seconds = time.perf_counter() - began
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return {"seconds": round(seconds, 2), "MiB": round((peak - before) / 1024, 1), **result}
+
+
+def told(run):
+    return {"classes": run.leaves, "tree": hash_of(run.agent)}
+
+
+def hash_of(agent):
+    return hashlib.sha256(agent.print("json").encode() + agent.q.tobytes()).hexdigest()[:16]
+
+
+def by_counts(folder, sample):
+    run = rlvc.fleet.learn_from(folder, sample=sample)
+    return told(run) | {"passes": run.report.passes}
+
+
+def in_memory(folder):
+    rlvc.fleet.export(folder, f"{folder}/all.npz")
+    began = time.perf_counter()
+    with np.load(f"{folder}/all.npz") as log:
+        arrays = {name: log[name] for name in log.files}
+    loaded = time.perf_counter() - began
+    os.unlink(f"{folder}/all.npz")
+    began = time.perf_counter()
+    run = rlvc.learn_from(arrays, actions=4, capacity=2 * len(arrays["actions"]))
+    return told(run) | {"learn_from": round(time.perf_counter() - began, 2), "loading": round(loaded, 2)}
+
+
+def by_workers(folder, workers):
+    """Seconds of a run on a cluster of processes that runs already."""
+    import distributed
+
+    cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, host="127.0.0.1",
+                                       dashboard_address="127.0.0.1:0")
+    address = cluster.scheduler_address
+    rlvc.fleet.learn_from(f"{folder}/part-00.parquet", cluster=address)  # the workers import the package
+    began = time.perf_counter()
+    run = rlvc.fleet.learn_from(folder, cluster=address, sample=0)
+    seconds = time.perf_counter() - began
+    cluster.close()
+    return {"workers": workers, "counting": round(seconds, 2)} | told(run)
+
+
+def instructions(rows, follow):
+    """Instructions that the loop takes for a row, by valgrind."""
+    program = (f"import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r}); import fleet; "
+               f"fleet.count_rows({rows}, {follow})")
+    done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
+                           "--toggle-collect=rlvc_shim_count", sys.executable, "-c", program],
+                          capture_output=True, text=True, check=True)
+    return int(re.search(r"Collected : (\d+)", done.stderr)[1]) / rows
+
+
+def count_rows(rows, follow):
+    some = worlds.maze(100_000)
+    index = np.arange(rows) % len(some)
+    part = Columns(*(np.ascontiguousarray(getattr(some, name)[index])
+                     for name in ("percepts", "next_percepts", "actions", "rewards", "ends", "keys")))
+    table = Table(Question(worlds.BITS, 4, (0, 1, 2, 3, 15, 16, 17), follow=follow))
+    table.count(part)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--interactions", type=float, default=1e6, help="default: %(default)s")
+    parser.add_argument("--instructions", action="store_true", help="count those of the loop a row, by valgrind, and no more")
+    arguments = parser.parse_args()
+    if arguments.instructions:
+        for follow in (False, True):
+            told_of = {"what follows": follow, "instructions": round(instructions(200_000, follow), 1)}
+            print(json.dumps(told_of), flush=True)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        write(folder, int(arguments.interactions))
+        for name, function, given in (
+            ("counts, one process", by_counts, (0,)),
+            ("counts, features guessed", by_counts, (1 << 17,)),
+            ("in memory", in_memory, ()),
+            ("counts, one worker", by_workers, (1,)),
+            ("counts, two workers", by_workers, (2,)),
+        ):
+            print(json.dumps({"what": name} | apart(function, folder, *given)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
