@@ -6,8 +6,11 @@
 
 #include "../base/float_math.h"
 
-/* A pivot below this share of its diagonal is what rounding left. */
+/* A pivot below this share of its diagonal is what rounding left. A column of which no more is left
+ * depends on those before it: an infinite pivot, as it were, makes its coefficient 0. */
 #define PIVOT_LEAST 1e-7f
+#define COLUMN_LEAST 1e-6f
+#define PIVOT_OF_NOTHING 1e30f
 
 void rlvc_gram_clear(float *gram, uint32_t order) {
     for (uint32_t i = 0; i < RLVC_GRAM_FLOATS(order); i++)
@@ -48,9 +51,10 @@ float rlvc_gram_factor(float *gram, uint32_t order, float ridge) {
             left -= row[j] * row[j];
             above += j + 1u;
         }
-        float least = PIVOT_LEAST * diagonal + 1e-30f;
+        int last = i + 1u == order;
+        float least = (last ? PIVOT_LEAST : COLUMN_LEAST) * diagonal + 1e-30f;
         if (left < least)
-            left = least;
+            left = last ? least : PIVOT_OF_NOTHING;
         row[i] = rlvc_sqrt(left);
         row += i + 1u;
     }
