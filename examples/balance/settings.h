@@ -12,10 +12,10 @@
 #define SEED 1u
 #endif
 
-/* The planner's memory: the defaults. */
+/* The planner's memory: the defaults, but half the leaves of a model, of which there are two. */
 #define CAPACITY 2000u
 #define SAMPLE 2000u
-#define MODEL_LEAVES 32u
+#define MODEL_LEAVES 16u
 
 /* BALANCE_SHORT (0 or 1) chooses a run that ends before much is learnt, with less work in a tick:
  * for processors without floating point, which take ten times as many instructions. */

@@ -411,7 +411,7 @@ static void test_rings_are_checked(void **state) {
 
 /* One test more: the first model tree gets two leaves. */
 static rlvc_model_tree *two_leaves(void) {
-    rlvc_model_tree *tree = checked->dynamics.tree;
+    rlvc_model_tree *tree = checked->model->tree;
     tree->leaves = 2;
     memset(tree->node, 0, 3u * sizeof *tree->node);
     tree->node[0].child = 1;
@@ -426,7 +426,7 @@ static rlvc_model_tree *two_leaves(void) {
 static void test_models_are_checked(void **state) {
     (void)state;
     prepare_check();
-    rlvc_dynamics *dynamics = &checked->dynamics;
+    rlvc_dynamics *dynamics = checked->model;
     rlvc_model_tree *tree = two_leaves();
     refuse_u16(&tree->node[0].test, SLIDER_COMPONENTS + SLIDER_ACTIONS);
     refuse_u16(&tree->node[0].child, 0);
@@ -550,11 +550,11 @@ static void test_lengths_are_checked(void **state) {
     refuse_saved();
     checked->experience.head = checked->experience.rows;
     refuse_saved();
-    checked->dynamics.tree[0].terms = 1;
+    checked->model[1].tree[0].terms = 1;
     refuse_saved();
-    checked->dynamics.tree[0].leaves = 0;
+    checked->model[1].tree[0].leaves = 0;
     refuse_saved();
-    rlvc_ending_node *node = checked->dynamics.ending.node;
+    rlvc_ending_node *node = checked->model[1].ending.node;
     assert_true(node->component < SLIDER_COMPONENTS);
     node->component = SLIDER_COMPONENTS;
     refuse_saved();
@@ -576,7 +576,7 @@ static void test_lengths_are_checked(void **state) {
 static void test_any_order_of_endings(void **state) {
     (void)state;
     prepare_check();
-    rlvc_ending *ending = &checked->dynamics.ending;
+    rlvc_ending *ending = &checked->model[1].ending;
     rlvc_planner_config config = checked->config;
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *other;

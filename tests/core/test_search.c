@@ -19,7 +19,7 @@
 
 static uint64_t block[60000];
 static rlvc_experience ring;
-static rlvc_dynamics model;
+static rlvc_dynamics model[RLVC_ROLLOUT_MODELS];
 static rlvc_dynamics_fit_cursor fit;
 static rlvc_row_sample sample;
 static rlvc_search_cursor search;
@@ -28,7 +28,9 @@ static uint8_t known[RLVC_CELLS_BYTES], fresh[RLVC_CELLS_BYTES];
 
 static void carve(rlvc_arena *arena) {
     rlvc_experience_carve(&ring, arena, 2, ROWS);
-    rlvc_dynamics_carve(&model, &fit, arena, 2, 3, 8);
+    for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++)
+        rlvc_dynamics_carve(model + k, arena, 2, 3, 8);
+    rlvc_dynamics_fit_carve(&fit, arena, 2, 3, 8);
     sample.room = ROWS;
     sample.row = rlvc_arena_carve(arena, ROWS, sizeof *sample.row);
     search.rollout.s = rlvc_arena_carve(arena, 2, sizeof(float));
@@ -56,9 +58,11 @@ static int make_model(void **state) {
         uint8_t end = slider_step(&world, action, &reward);
         rlvc_experience_append(&ring, (uint8_t)action, reward, world.s, end);
     }
-    rlvc_dynamics_fit_begin(&fit, &model, &ring, &sample, 1);
-    while (!fit.done)
-        (void)rlvc_dynamics_fit_step(&fit, UINT32_MAX);
+    for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++) {
+        rlvc_dynamics_fit_begin(&fit, model + k, &ring, &sample, 1 + k);
+        while (!fit.done)
+            (void)rlvc_dynamics_fit_step(&fit, UINT32_MAX);
+    }
     for (uint32_t i = 0; i < STARTS; i++) {
         slider_reset(&world, &rng);
         memcpy(start + 2u * i, world.s, sizeof world.s);
@@ -70,7 +74,7 @@ static int make_model(void **state) {
 static rlvc_rollout_input rolled(uint32_t horizon) {
     rlvc_rollout_input in;
     memset(&in, 0, sizeof in);
-    in.dynamics = &model;
+    in.model = model;
     in.horizon = horizon;
     in.seed = 4;
     return in;
@@ -79,7 +83,7 @@ static rlvc_rollout_input rolled(uint32_t horizon) {
 static void roll(rlvc_rollout *rollout, const rlvc_rollout_input *in, const rlvc_small_tree *policy,
                  const float *from, uint32_t *visits) {
     rollout->s = search.rollout.s;
-    rlvc_rollout_begin(rollout, in, from, 3);
+    rlvc_rollout_begin(rollout, in, from, 2);
     while (!rollout->done)
         rlvc_rollout_step(rollout, in, policy, visits);
 }
@@ -132,6 +136,22 @@ static void test_a_rollout_ends_where_episodes_do(void **state) {
     assert_true(rollout.total == 0.0f && rollout.step == 0);
 }
 
+/* Two models, with random actions and without, take turns. */
+static void test_kinds_of_rollouts(void **state) {
+    (void)state;
+    rlvc_rollout rollout;
+    rollout.s = search.rollout.s;
+    for (uint32_t k = 0; k < 8; k++) {
+        rlvc_rollout_input in = rolled(40);
+        rlvc_rollout_begin(&rollout, &in, start, k);
+        assert_int_equal(rollout.plain, k % 2u);
+        assert_int_equal(rollout.model, k / 2u % 2u);
+        in.plain = 1;
+        rlvc_rollout_begin(&rollout, &in, start, k);
+        assert_int_equal(rollout.plain, 1);
+    }
+}
+
 /* The luck of a step depends on seed, start and step. */
 static void test_common_random_numbers(void **state) {
     (void)state;
@@ -156,16 +176,16 @@ static void test_cells(void **state) {
     (void)state;
     uint8_t bits[RLVC_CELLS_BYTES] = {0};
     const float middle[2] = {0.0f, 0.0f}, far[2] = {1e9f, -1e9f};
-    assert_int_equal(rlvc_cells_mark(&model, middle, bits), 1);
-    assert_int_equal(rlvc_cells_mark(&model, middle, bits), 0);
-    assert_int_equal(rlvc_cells_mark(&model, far, bits), 1);
+    assert_int_equal(rlvc_cells_mark(model, middle, bits), 1);
+    assert_int_equal(rlvc_cells_mark(model, middle, bits), 0);
+    assert_int_equal(rlvc_cells_mark(model, far, bits), 1);
     assert_true(bits[(11u * 12u) / 8u - 0u] != 0 || bits[11u / 8u] != 0);
     assert_int_equal(rlvc_cells_pairs(1), 1);
     assert_int_equal(rlvc_cells_pairs(2), 1);
     assert_int_equal(rlvc_cells_pairs(4), 6);
     /* a component alone is paired with itself; without a range there is one cell */
     float low = -1.0f, high = 1.0f, same = 2.0f;
-    rlvc_dynamics lone = model;
+    rlvc_dynamics lone = model[0];
     memset(bits, 0, sizeof bits);
     lone.basis.components = 1;
     lone.low = &low;
@@ -189,7 +209,7 @@ static rlvc_search_input searched(uint32_t candidates, uint32_t patience) {
     memset(&in, 0, sizeof in);
     in.rollout = rolled(60);
     in.moves.experience = &ring;
-    in.moves.scale = model.basis.scale;
+    in.moves.scale = model->basis.scale;
     in.moves.actions = 3;
     in.moves.leaves_max = 5;
     in.start = start;
@@ -252,21 +272,25 @@ static void test_a_search_takes_so_many_steps(void **state) {
     assert_true(search.tried == 0 && search.steps >= 2500);
 }
 
+/* From now on each step earns the same in the models. */
+static void earn_always(float reward) {
+    for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++) {
+        model[k].tree[2].terms = 0;
+        model[k].tree[2].mean = model[k].reward_low = model[k].reward_high = reward;
+    }
+}
+
 /* Where each step earns the most there is, only leaves can be saved. */
 static void test_a_saturated_search_ends_sooner(void **state) {
     (void)state;
     rlvc_search_input in = searched(100000, 80);
-    rlvc_dynamics kept = model;
-    rlvc_model_tree reward = model.tree[2];
-    model.tree[2].terms = 0;
-    model.tree[2].mean = model.reward_low = model.reward_high = 1.0f;
+    earn_always(1.0f);
     run(&in, UINT32_MAX);
     assert_true(search.best > 59.94f && search.tried - search.gained == 20);
-    model.tree[2].mean = model.reward_low = model.reward_high = -1.0f;
+    earn_always(-1.0f);
     run(&in, UINT32_MAX);
     assert_true(search.tried - search.gained == 80);
-    model = kept;
-    model.tree[2] = reward;
+    make_model(NULL);
 }
 
 static void test_slices_change_nothing(void **state) {
@@ -292,7 +316,7 @@ static void test_a_search_for_what_is_new(void **state) {
     in.cells_bytes = sizeof known;
     memset(known, 0, sizeof known);
     for (uint32_t i = 0; i < ring.count; i++)
-        (void)rlvc_cells_mark(&model, rlvc_experience_percept(&ring, rlvc_experience_row(&ring, i)),
+        (void)rlvc_cells_mark(model, rlvc_experience_percept(&ring, rlvc_experience_row(&ring, i)),
                               known);
     run(&in, UINT32_MAX);
     float some = search.best;
@@ -308,6 +332,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_rollout_earns_what_the_world_gives),
         cmocka_unit_test(test_a_rollout_ends_where_episodes_do),
+        cmocka_unit_test(test_kinds_of_rollouts),
         cmocka_unit_test(test_common_random_numbers),
         cmocka_unit_test(test_cells),
         cmocka_unit_test(test_a_search_finds_a_good_tree),

@@ -72,7 +72,7 @@ RLVC_API rlvc_status rlvc_planner_size(const rlvc_planner_config *config, size_t
  * once. */
 #define RLVC_PLANNER_BYTES(components, actions, capacity, sample, model_leaves)                    \
     (8192u + (size_t)(capacity) * (4u * (components) + 6u) + 4u * (size_t)(sample) +               \
-     ((components) + 2u) * (size_t)(model_leaves) *                                                \
+     (2u * (components) + 3u) * (size_t)(model_leaves) *                                           \
          (28u + 4u * (RLVC_PLANNER_TERMS(components, actions) + 3u)) +                             \
      48u * (model_leaves) + 200u * ((components) + 2u) +                                           \
      5u * 2u * (RLVC_PLANNER_TERMS(components, actions) + 1u) *                                    \

@@ -20,10 +20,9 @@ enum { SAMPLE, MEAN, DEVIATION, TARGET_MEAN, TARGET_DEVIATION, SHORT, FULL, ENDI
 /* Noise below this share of a target's deviation is not drawn. */
 #define NOISE_LEAST 0.01f
 
-void rlvc_dynamics_carve(rlvc_dynamics *dynamics, rlvc_dynamics_fit_cursor *fit, rlvc_arena *arena,
-                         uint32_t components, uint32_t actions, uint32_t leaves_max) {
+void rlvc_dynamics_carve(rlvc_dynamics *dynamics, rlvc_arena *arena, uint32_t components,
+                         uint32_t actions, uint32_t leaves_max) {
     memset(dynamics, 0, sizeof *dynamics);
-    memset(fit, 0, sizeof *fit);
     uint32_t terms = rlvc_basis_full(components, actions);
     dynamics->terms_max = terms;
     dynamics->leaves_max = leaves_max;
@@ -43,6 +42,12 @@ void rlvc_dynamics_carve(rlvc_dynamics *dynamics, rlvc_dynamics_fit_cursor *fit,
         if (arena->base)
             dynamics->tree[k] = tree;
     }
+}
+
+void rlvc_dynamics_fit_carve(rlvc_dynamics_fit_cursor *fit, rlvc_arena *arena, uint32_t components,
+                             uint32_t actions, uint32_t leaves_max) {
+    uint32_t terms = rlvc_basis_full(components, actions);
+    memset(fit, 0, sizeof *fit);
     rlvc_model_tree_carve(&fit->spare, arena, leaves_max, terms);
     rlvc_tree_fit_carve(&fit->space, arena, leaves_max, terms);
     fit->window = rlvc_arena_carve(arena, components, sizeof *fit->window);

@@ -44,8 +44,12 @@ typedef struct rlvc_dynamics_fit_cursor {
     uint8_t done;
 } rlvc_dynamics_fit_cursor;
 
-void rlvc_dynamics_carve(rlvc_dynamics *dynamics, rlvc_dynamics_fit_cursor *fit, rlvc_arena *arena,
-                         uint32_t components, uint32_t actions, uint32_t leaves_max);
+void rlvc_dynamics_carve(rlvc_dynamics *dynamics, rlvc_arena *arena, uint32_t components,
+                         uint32_t actions, uint32_t leaves_max);
+
+/* A fit's memory serves any number of models of the same shape. */
+void rlvc_dynamics_fit_carve(rlvc_dynamics_fit_cursor *fit, rlvc_arena *arena, uint32_t components,
+                             uint32_t actions, uint32_t leaves_max);
 
 /* Begins to fit to a sample of the experience, which is frozen until the fit is done. There is an
  * interaction in what stays. O(1). */

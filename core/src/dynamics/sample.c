@@ -14,13 +14,21 @@ void rlvc_sampling_begin(rlvc_sampling_cursor *sampling, uint32_t first, uint32_
     rlvc_rng_seed(&sampling->rng, seed);
 }
 
+/* Seven in ten, rounded up. */
+static uint32_t most_of(uint32_t rows) {
+    return rows - rows / 10u * 3u - rows % 10u * 3u / 10u;
+}
+
+static uint32_t least_of(uint32_t a, uint32_t b) {
+    return a < b ? a : b;
+}
+
 /* Shares the room between the strata, once they are counted. */
 static void share(rlvc_sampling_cursor *sampling, rlvc_row_sample *sample) {
     uint32_t going = sampling->seen[0], ended = sampling->seen[1], room = sample->room;
     uint32_t most = going + room / 4u >= room ? room / 4u : room - going;
-    sampling->needed[1] = ended < most ? ended : most;
-    uint32_t left = room - sampling->needed[1];
-    sampling->needed[0] = going < left ? going : left;
+    sampling->needed[1] = least_of(most_of(ended), most);
+    sampling->needed[0] = least_of(most_of(going), room - sampling->needed[1]);
     sample->going = sampling->needed[0];
     sample->count = sampling->needed[0] + sampling->needed[1];
     sample->weight_going = going > 0 ? (float)going / (float)sampling->needed[0] : 1.0f;

@@ -55,8 +55,10 @@ static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_planner_c
     rlvc_experience_carve(&planner->experience, arena, d, config->capacity);
     planner->sample.room = config->sample;
     planner->sample.row = rlvc_arena_carve(arena, config->sample, sizeof *planner->sample.row);
-    rlvc_dynamics_carve(&planner->dynamics, &planner->planning.fit, arena, d, config->actions,
-                        config->model_leaves);
+    for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++)
+        rlvc_dynamics_carve(planner->model + k, arena, d, config->actions, config->model_leaves);
+    rlvc_dynamics_fit_carve(&planner->planning.fit, arena, d, config->actions,
+                            config->model_leaves);
     rlvc_archive_carve(&planner->archive, arena, d);
     planner->start = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
     planner->common = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
@@ -231,7 +233,7 @@ rlvc_status rlvc_planner_observe(rlvc_planner *planner, uint32_t action, float r
     planner->steps++;
     if (planner->acting.why == RLVC_PLANNER_EXPLORE) {
         planner->explored++;
-        planner->new_cells += rlvc_cells_mark(&planner->dynamics, next, planner->cells);
+        planner->new_cells += rlvc_cells_mark(planner->model, next, planner->cells);
     }
     planner->open = end == RLVC_GOES_ON;
     if (!planner->open || planner->steps == planner->config.horizon)

@@ -28,6 +28,7 @@ typedef struct rlvc_planning_cursor {
     uint32_t episode;
     uint32_t at;
     uint32_t tries; /* searches from nothing to come */
+    uint32_t model; /* that is being fitted */
     uint8_t rolling;
     uint8_t phase;
 } rlvc_planning_cursor;
@@ -36,7 +37,7 @@ struct rlvc_planner {
     rlvc_planner_config config;
     rlvc_experience experience;
     rlvc_row_sample sample;
-    rlvc_dynamics dynamics;
+    rlvc_dynamics model[RLVC_ROLLOUT_MODELS];
     rlvc_archive archive;
     rlvc_planning_cursor planning;
     rlvc_acting acting;
@@ -62,7 +63,8 @@ struct rlvc_planner {
     uint32_t explored;  /* interactions spent on exploring */
     uint32_t new_cells; /* in the episode that explores */
     uint32_t counter;   /* steps of learning */
-    uint32_t failures;  /* searches without gain since a fit */
+    uint32_t searched;  /* interactions at the last search */
+    uint32_t failures;  /* searches without gain in a row */
     uint32_t fits;
     uint32_t searches;
     uint32_t candidates;

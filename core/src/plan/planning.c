@@ -21,6 +21,7 @@ enum { FIT, PROMISE, DECIDE, CELLS, EXPLORE, SEARCH, CANDIDATE, DONE };
 #define SCRATCH_EVERY 8u
 #define SCRATCH_TRIES 2u
 #define FAILURES_MAX 3u
+#define SEARCH_PAUSE 250u /* interactions, more with each search without gain */
 #define MOVE_LEAST 0.001f
 
 uint32_t rlvc_planner_horizon(const rlvc_planner *planner) {
@@ -33,7 +34,7 @@ uint32_t rlvc_planner_horizon(const rlvc_planner *planner) {
 #define STEP_UNITS 2048u
 
 uint32_t rlvc_planning_grain(const rlvc_planner *planner) {
-    uint32_t order = planner->dynamics.terms_max + 1u;
+    uint32_t order = planner->model->terms_max + 1u;
     uint32_t factors = order * order * order / 3u + order * (order + 4u) / 2u;
     return factors > STEP_UNITS ? factors : STEP_UNITS;
 }
@@ -56,6 +57,14 @@ static void choose(rlvc_planner *planner, const rlvc_small_tree *tree, uint32_t 
     enter(planner, DONE);
 }
 
+/* Begins to fit the next of the models, to a sample of its own. */
+static void begin_fit(rlvc_planner *planner) {
+    uint32_t k = planner->planning.model;
+    uint32_t seed = planner->config.seed + planner->counter + k * UINT32_C(0x9e3779b9);
+    rlvc_dynamics_fit_begin(&planner->planning.fit, planner->model + k, &planner->experience,
+                            &planner->sample, seed);
+}
+
 void rlvc_planning_begin(rlvc_planner *planner) {
     uint32_t total = planner->experience.total, grown = total - planner->fitted;
     uint32_t room = planner->config.capacity;
@@ -70,8 +79,8 @@ void rlvc_planning_begin(rlvc_planner *planner) {
     uint32_t stored = total < room ? total : room;
     if (planner->fitted == 0 || grown > stored / GROWTH) {
         enter(planner, FIT);
-        rlvc_dynamics_fit_begin(&planner->planning.fit, &planner->dynamics, &planner->experience,
-                                &planner->sample, planner->config.seed + planner->counter);
+        planner->planning.model = 0;
+        begin_fit(planner);
     } else {
         enter(planner, PROMISE);
     }
@@ -96,6 +105,10 @@ static uint32_t fit_model(rlvc_planner *planner, uint32_t budget) {
     uint32_t spent = rlvc_dynamics_fit_step(fit, budget);
     if (!fit->done)
         return spent;
+    if (++planner->planning.model < RLVC_ROLLOUT_MODELS) {
+        begin_fit(planner);
+        return spent;
+    }
     planner->fitted = planner->experience.total;
     planner->fits++;
     if (planner->failures >= FAILURES_MAX)
@@ -108,10 +121,11 @@ static uint32_t fit_model(rlvc_planner *planner, uint32_t budget) {
 
 /* ------------------------------------------------------------------ promises */
 
-static rlvc_rollout_input rollout_input(const rlvc_planner *planner, uint32_t seed) {
+static rlvc_rollout_input rollout_input(const rlvc_planner *planner, uint32_t seed, uint8_t plain) {
     rlvc_rollout_input in;
     memset(&in, 0, sizeof in);
-    in.dynamics = &planner->dynamics;
+    in.plain = plain;
+    in.model = planner->model;
     in.horizon = rlvc_planner_horizon(planner);
     in.seed = planner->config.seed * 31u + seed;
     return in;
@@ -120,7 +134,7 @@ static rlvc_rollout_input rollout_input(const rlvc_planner *planner, uint32_t se
 /* One step of the mean over the common starts. @return 1 once it is made, in value_sum. */
 static int mean_step(rlvc_planner *planner, const rlvc_small_tree *tree) {
     rlvc_planning_cursor *planning = &planner->planning;
-    rlvc_rollout_input in = rollout_input(planner, 1u);
+    rlvc_rollout_input in = rollout_input(planner, 1u, 1);
     if (!planning->rolling) {
         const float *start = planner->common + (size_t)planning->at * planner->config.components;
         rlvc_rollout_begin(&planning->rollout, &in, start, planning->at);
@@ -156,7 +170,7 @@ static uint32_t promise(rlvc_planner *planner) {
             planning->value_sum = 0.0f;
         }
     } else if (trial->valued < rlvc_trial_kept(trial)) {
-        rlvc_rollout_input in = rollout_input(planner, 1u);
+        rlvc_rollout_input in = rollout_input(planner, 1u, 1);
         if (!planning->rolling)
             rlvc_rollout_begin(&planning->rollout, &in,
                                rlvc_archive_start(archive, planning->policy, trial->valued),
@@ -171,7 +185,7 @@ static uint32_t promise(rlvc_planner *planner) {
         planning->policy++;
         return 1u;
     }
-    return rlvc_rollout_units(&planner->dynamics);
+    return rlvc_rollout_units(planner->model);
 }
 
 /* ------------------------------------------------------------------ searches */
@@ -204,16 +218,15 @@ static void begin_search(rlvc_planner *planner, const rlvc_small_tree *tree, uin
     int explore = planner->planning.phase == EXPLORE;
     memset(&in, 0, sizeof in);
     rlvc_rng_seed(&rng, config->seed * 101u + planner->counter);
-    in.rollout = rollout_input(planner, planner->counter);
+    in.rollout = rollout_input(planner, planner->counter, (uint8_t)explore);
     in.moves.experience = &planner->experience;
-    in.moves.scale = planner->dynamics.basis.scale;
+    in.moves.scale = planner->model->basis.scale;
     in.moves.actions = config->actions;
     in.moves.leaves_max = config->leaves;
     in.start = planner->search_start;
     in.starts = first_starts(planner, &rng, explore ? EXPLORE_STARTS : SEARCH_STARTS_FIRST);
     if (explore) {
         in.rollout.fresh = planner->fresh;
-        in.rollout.plain = 1;
         in.known = planner->cells;
         in.cells_bytes = planner->cells_bytes;
     } else {
@@ -240,6 +253,13 @@ static int all_alike(const rlvc_planner *planner) {
     return planner->least == planner->most && (planner->longest > 0 || planner->episodes > 5u);
 }
 
+/* Searches have gained nothing of late: the next one waits the longer, the more did not. */
+static int pauses(const rlvc_planner *planner) {
+    uint32_t failures = planner->failures;
+    return failures >= FAILURES_MAX && planner->experience.total - planner->searched <
+                                           SEARCH_PAUSE * (failures - FAILURES_MAX + 1u);
+}
+
 static void try_again(rlvc_planner *planner) {
     uint32_t again = rlvc_archive_race(&planner->archive);
     choose(planner, &planner->archive.trial[again].tree, again, RLVC_PLANNER_AGAIN);
@@ -254,12 +274,13 @@ static void decide(rlvc_planner *planner) {
         memset(planner->cells, 0, planner->cells_bytes);
         return;
     }
-    if (archive->count > 0 && planner->failures >= FAILURES_MAX) {
+    if (archive->count > 0 && pauses(planner)) {
         try_again(planner);
         return;
     }
     enter(planner, SEARCH);
     planner->searches++;
+    planner->searched = planner->experience.total;
     planner->planning.candidate_value = -3e38f;
     planner->planning.tries = 0;
     if (archive->count == 0 || planner->counter % SCRATCH_EVERY == 0)
@@ -275,7 +296,7 @@ static void decide(rlvc_planner *planner) {
 static uint32_t mark_cells(rlvc_planner *planner) {
     rlvc_planning_cursor *planning = &planner->planning;
     uint32_t row = rlvc_experience_row(&planner->experience, planning->at);
-    (void)rlvc_cells_mark(&planner->dynamics, rlvc_experience_percept(&planner->experience, row),
+    (void)rlvc_cells_mark(planner->model, rlvc_experience_percept(&planner->experience, row),
                           planner->cells);
     if (++planning->at == planner->experience.count) {
         enter(planner, EXPLORE);
@@ -320,7 +341,7 @@ static uint32_t try_candidate(rlvc_planner *planner) {
     rlvc_planning_cursor *planning = &planner->planning;
     rlvc_archive *archive = &planner->archive;
     if (!mean_step(planner, &planning->candidate))
-        return rlvc_rollout_units(&planner->dynamics);
+        return rlvc_rollout_units(planner->model);
     float promised = planning->value_sum, bar = -3e38f, least;
     float value = archive->beta * promised + archive->common;
     uint32_t best = 0;
@@ -341,7 +362,7 @@ static uint32_t try_candidate(rlvc_planner *planner) {
     } else {
         try_again(planner);
     }
-    return rlvc_rollout_units(&planner->dynamics);
+    return rlvc_rollout_units(planner->model);
 }
 
 uint32_t rlvc_planning_step(rlvc_planner *planner, uint32_t budget) {

@@ -14,24 +14,26 @@ void rlvc_rollout_begin(rlvc_rollout *rollout, const rlvc_rollout_input *in, con
     rlvc_rng rng;
     rlvc_rng_seed(&rng, in->seed + start * UINT32_C(0x9e3779b9));
     rollout->stream = rlvc_rng_next(&rng);
-    for (uint32_t i = 0; i < in->dynamics->basis.components; i++)
+    for (uint32_t i = 0; i < in->model->basis.components; i++)
         rollout->s[i] = percept[i];
     rollout->alive = 1.0f;
     rollout->total = rollout->novelty = 0.0f;
     rollout->step = 0;
+    rollout->plain = in->plain || (start & 1u);
+    rollout->model = (start >> 1) & 1u;
     rollout->done = in->horizon == 0;
 }
 
 void rlvc_rollout_step(rlvc_rollout *rollout, const rlvc_rollout_input *in,
                        const rlvc_small_tree *policy, uint32_t *visits) {
-    const rlvc_dynamics *dynamics = in->dynamics;
+    const rlvc_dynamics *dynamics = in->model + rollout->model;
     rlvc_outcome outcome;
     rlvc_rng rng;
     rlvc_rng_seed(&rng, rollout->stream + rollout->step);
     uint32_t leaf = rlvc_small_tree_leaf(policy, rollout->s), action = policy->node[leaf].action;
     if (visits)
         visits[leaf]++;
-    if (!in->plain && rlvc_rng_uniform(&rng) < RANDOM_SHARE)
+    if (!rollout->plain && rlvc_rng_uniform(&rng) < RANDOM_SHARE)
         action = rlvc_rng_below(&rng, dynamics->basis.actions);
     rlvc_dynamics_step(dynamics, rollout->s, action, &rng, &outcome);
     rollout->total +=

@@ -2,7 +2,15 @@
 /* What a policy earns in the model from one start: episodes in the learnt dynamics.
  *
  * The probability that the episode ends is a weight and no draw: what follows counts by the
- * probability that it is reached. The random numbers of a step depend on the seed, the start and
+ * probability that it is reached.
+ *
+ * There are two models, of samples of their own, and the policy acts as it is or, one time in
+ * fifty, at random: four kinds of rollouts in turn, by the number of the start. What a search
+ * exploits in one model's errors the other does not confirm. A policy that gets stuck in a circle
+ * is freed from it by random actions, and one that balances on a knife's edge is not shaken without
+ * them.
+ *
+ * The random numbers of a step depend on the seed, the start and
  * the step alone, so that two policies meet the same luck (common random numbers), and however the
  * work is sliced. */
 #ifndef RLVC_SRC_ROLLOUT_H
@@ -11,12 +19,14 @@
 #include "../dynamics/dynamics.h"
 #include "small_tree.h"
 
+#define RLVC_ROLLOUT_MODELS 2u
+
 typedef struct rlvc_rollout_input {
-    const rlvc_dynamics *dynamics;
+    const rlvc_dynamics *model; /* [RLVC_ROLLOUT_MODELS] */
     uint32_t horizon;
     uint32_t seed;
     uint8_t *fresh; /* optional: cells marked as visited; then new ones are counted */
-    uint8_t plain;  /* 1: the policy's action always; 0: one in fifty is random */
+    uint8_t plain;  /* 1: the policy's action always */
 } rlvc_rollout_input;
 
 typedef struct rlvc_rollout {
@@ -26,6 +36,8 @@ typedef struct rlvc_rollout {
     float total;     /* expected return so far */
     float novelty;   /* new cells so far, each by the probability that it is reached */
     uint32_t step;
+    uint8_t model; /* of the two */
+    uint8_t plain; /* no action is random */
     uint8_t done;
 } rlvc_rollout;
 

@@ -87,7 +87,7 @@ static void end_of_rollout(rlvc_search_cursor *search) {
         search->rolling = 0;
     } else {
         const float *start =
-            in->start + (size_t)search->start * in->rollout.dynamics->basis.components;
+            in->start + (size_t)search->start * in->rollout.model->basis.components;
         rlvc_rollout_begin(&search->rollout, &in->rollout, start, search->start);
     }
 }
@@ -95,7 +95,7 @@ static void end_of_rollout(rlvc_search_cursor *search) {
 /* Candidates without gain after which the search ends. */
 static uint32_t patience_of(const rlvc_search_cursor *search) {
     const rlvc_search_input *in = &search->in;
-    float most = in->rollout.dynamics->reward_high * (float)in->rollout.horizon;
+    float most = in->rollout.model->reward_high * (float)in->rollout.horizon;
     int saturated = !in->rollout.fresh && most > 0.0f && search->best >= 0.999f * most;
     return saturated ? in->patience / 4u : in->patience;
 }
@@ -119,7 +119,7 @@ static void next_candidate(rlvc_search_cursor *search) {
 }
 
 uint32_t rlvc_search_step(rlvc_search_cursor *search, uint32_t budget) {
-    uint32_t spent = 0, units = rlvc_rollout_units(search->in.rollout.dynamics);
+    uint32_t spent = 0, units = rlvc_rollout_units(search->in.rollout.model);
     while (spent < budget && !search->done) {
         if (!search->rolling) {
             next_candidate(search);

@@ -96,6 +96,13 @@ static int dynamics_are_sound(const rlvc_dynamics *dynamics) {
            within(dynamics->reward_low, NUMBER_MOST) && within(dynamics->reward_high, NUMBER_MOST);
 }
 
+static int models_are_sound(const rlvc_planner *planner) {
+    for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++)
+        if (!dynamics_are_sound(planner->model + k))
+            return 0;
+    return 1;
+}
+
 /* ------------------------------------------------------------------ policies */
 
 /* A tree in the order that the search makes: the j-th test's children are 2j + 1 and 2j + 2. */
@@ -174,7 +181,7 @@ static int starts_are_sound(const rlvc_planner *planner) {
 
 int rlvc_planner_check(const rlvc_planner *planner) {
     return counters_are_sound(planner) && order_is_sound(planner) && experience_is_sound(planner) &&
-           (planner->fitted == 0 || dynamics_are_sound(&planner->dynamics)) &&
-           archive_is_sound(planner) && acting_is_sound(planner, &planner->acting) &&
-           acting_is_sound(planner, &planner->next) && starts_are_sound(planner);
+           (planner->fitted == 0 || models_are_sound(planner)) && archive_is_sound(planner) &&
+           acting_is_sound(planner, &planner->acting) && acting_is_sound(planner, &planner->next) &&
+           starts_are_sound(planner);
 }

@@ -34,11 +34,11 @@ static void pass_floats(rlvc_stream *s, float *number, uint32_t count) {
 }
 
 static void pass_counters(rlvc_stream *s, rlvc_planner *planner) {
-    uint32_t *field[] = {&planner->starts,    &planner->commons,   &planner->steps,
-                         &planner->episodes,  &planner->longest,   &planner->fitted,
-                         &planner->explored,  &planner->new_cells, &planner->counter,
-                         &planner->failures,  &planner->fits,      &planner->searches,
-                         &planner->candidates};
+    uint32_t *field[] = {&planner->starts,   &planner->commons,   &planner->steps,
+                         &planner->episodes, &planner->longest,   &planner->fitted,
+                         &planner->explored, &planner->new_cells, &planner->counter,
+                         &planner->searched, &planner->failures,  &planner->fits,
+                         &planner->searches, &planner->candidates};
     rlvc_stream_u64(s, &planner->rng.state);
     for (uint32_t i = 0; i < sizeof field / sizeof field[0]; i++)
         rlvc_stream_u32(s, field[i]);
@@ -132,6 +132,13 @@ static int pass_dynamics(rlvc_stream *s, rlvc_dynamics *dynamics) {
     return pass_ending(s, &dynamics->ending, components);
 }
 
+static int pass_models(rlvc_stream *s, rlvc_planner *planner) {
+    for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++)
+        if (!pass_dynamics(s, planner->model + k))
+            return 0;
+    return 1;
+}
+
 static int pass_small_tree(rlvc_stream *s, rlvc_small_tree *tree) {
     rlvc_stream_u8(s, &tree->nodes);
     if (tree->nodes > RLVC_SMALL_NODES_MAX)
@@ -190,9 +197,8 @@ static int pass_state(rlvc_stream *s, rlvc_planner *planner) {
     uint32_t components = planner->config.components;
     pass_counters(s, planner);
     if (!pass_experience(s, &planner->experience) ||
-        (planner->fitted > 0 && !pass_dynamics(s, &planner->dynamics)) ||
-        !pass_archive(s, &planner->archive) || !pass_acting(s, &planner->acting) ||
-        !pass_acting(s, &planner->next))
+        (planner->fitted > 0 && !pass_models(s, planner)) || !pass_archive(s, &planner->archive) ||
+        !pass_acting(s, &planner->acting) || !pass_acting(s, &planner->next))
         return 0;
     pass_floats(s, planner->start, RLVC_PLANNER_STARTS * components);
     pass_floats(s, planner->common, RLVC_PLANNER_STARTS * components);
@@ -203,7 +209,7 @@ static int pass_state(rlvc_stream *s, rlvc_planner *planner) {
 
 /* ------------------------------------------------------------------ sizes */
 
-#define FIXED_BYTES 1024u
+#define FIXED_BYTES 2048u
 #define TREE_BYTES (1u + RLVC_SMALL_NODES_MAX * 8u)
 
 /* The most that a snapshot can take. 64 bits hold it for every config. */
@@ -211,9 +217,9 @@ static uint64_t largest(const rlvc_planner_config *config) {
     uint64_t d = config->components, unit = RLVC_STORE_UNIT;
     uint64_t leaf = 28u + 4u * (uint64_t)rlvc_basis_full(config->components, config->actions);
     uint64_t size = FIXED_BYTES + (uint64_t)config->capacity * (4u * d + 6u);
-    size += (d + 1u) * (12u + config->model_leaves * leaf);
+    size += RLVC_ROLLOUT_MODELS * (d + 1u) * (12u + config->model_leaves * leaf);
     size += RLVC_ARCHIVE_POLICIES * (TREE_BYTES + 21u + RLVC_ARCHIVE_EPISODES * (8u + 4u * d));
-    size += 2u * TREE_BYTES + (2u * RLVC_PLANNER_STARTS + 7u) * 4u * d;
+    size += 2u * TREE_BYTES + (2u * RLVC_PLANNER_STARTS + 11u) * 4u * d;
     size += (uint64_t)rlvc_cells_pairs(config->components) * RLVC_CELLS_BYTES;
     return (size + unit - 1u) / unit * unit;
 }
