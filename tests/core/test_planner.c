@@ -210,7 +210,7 @@ static void test_learning_while_acting(void **state) {
         } else {
             assert_int_equal(status, RLVC_OK);
         }
-        uint32_t budget = i % 3000u < 800u ? 15000u : 600000u;
+        uint32_t budget = i % 3000u < 800u ? 5000u : 600000u;
         assert_int_equal(rlvc_planner_learn(planner, budget, &progress), RLVC_OK);
         while (end != RLVC_GOES_ON) {
             slider_reset(&p.world, &p.rng);
@@ -224,6 +224,92 @@ static void test_learning_while_acting(void **state) {
     assert_true(busy > 0);
     assert_true(value_of(planner) > 45.0f);
     assert_true(stats_of(planner).tried > 0);
+}
+
+/* Ends the episode, learns, and begins the next. @return the searches so far. */
+static uint32_t end_episode(player *p) {
+    assert_int_equal(rlvc_planner_observe(p->planner, 0, 1.0f, p->world.s, RLVC_TRUNCATED),
+                     RLVC_OK);
+    learn(p);
+    reset(p);
+    return p->planner->searches;
+}
+
+/* After searches without gain the next one waits, but not for ever. */
+static void test_searches_pause(void **state) {
+    (void)state;
+    rlvc_planner_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    player p;
+    start(&p, planner, 5);
+    play(&p, 900);
+    uint32_t searches = planner->searches;
+    planner->gainful = 0;
+    planner->fitted = planner->experience.total;
+    planner->failures = 4;
+    planner->searched = planner->experience.total;
+    assert_int_equal(end_episode(&p), searches);
+    assert_int_equal(planner->next.why, RLVC_PLANNER_AGAIN);
+    planner->searched = planner->experience.total - 498u;
+    assert_int_equal(end_episode(&p), searches);
+    planner->searched = planner->experience.total - 499u; /* two pauses, with the next one */
+    assert_int_equal(end_episode(&p), searches + 1u);
+    assert_int_equal(planner->searched, planner->experience.total);
+}
+
+/* Of an episode that explores, no more steps count than there are cells for a pair of components.
+ */
+static void test_a_long_exploration(void **state) {
+    (void)state;
+    rlvc_planner_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    player p;
+    start(&p, planner, 5);
+    play(&p, 300);
+    planner->acting.why = RLVC_PLANNER_EXPLORE;
+    planner->steps = 400;
+    planner->new_cells = 2;
+    (void)end_episode(&p);
+    assert_int_equal(planner->gainful, 0);
+    planner->acting.why = RLVC_PLANNER_EXPLORE;
+    planner->steps = 400;
+    planner->new_cells = 3; /* one in fifty of 144 */
+    (void)end_episode(&p);
+    assert_int_equal(planner->gainful, 1);
+}
+
+/* Eight components with their products: a regression of 48 terms, and a larger least budget. */
+static void test_many_terms(void **state) {
+    (void)state;
+    rlvc_planner_config config = small_config();
+    rlvc_rng rng;
+    rlvc_progress progress;
+    float s[8] = {0.0f};
+    uint32_t least;
+    config.components = 8;
+    config.actions = 4;
+    config.model_leaves = 2;
+    config.candidates = config.patience = 1;
+    rlvc_planner *planner = make(&config, memory);
+    assert_int_equal(rlvc_planner_budget_min(planner, &least), RLVC_OK);
+    assert_true(least > 10000u);
+    rlvc_rng_seed(&rng, 1);
+    assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+    for (uint32_t i = 0; i < 200; i++) {
+        for (uint32_t k = 0; k < 8; k++) /* of which two are bits, one of them rare */
+            s[k] =
+                k < 6 ? rlvc_rng_uniform(&rng) : (float)(rlvc_rng_below(&rng, 20) < k * 2u - 11u);
+        assert_int_equal(rlvc_planner_observe(planner, i % 4u, s[0] + s[6], s,
+                                              i == 199 ? RLVC_TRUNCATED : RLVC_GOES_ON),
+                         RLVC_OK);
+    }
+    do
+        assert_int_equal(rlvc_planner_learn(planner, least, &progress), RLVC_OK);
+    while (!progress.done);
+    assert_int_equal(planner->fits, 1);
+    for (uint32_t k = 0; k <= 8; k++)
+        for (uint32_t i = 0; i < planner->model->tree[k].terms; i++)
+            assert_true(fabsf(planner->model->tree[k].coefficient[i]) < 100.0f);
 }
 
 /* Where an episode never ends, a horizon's interactions are one. */
@@ -591,6 +677,9 @@ int main(void) {
         cmocka_unit_test(test_nodes_are_the_policy),
         cmocka_unit_test(test_slices_change_nothing),
         cmocka_unit_test(test_learning_while_acting),
+        cmocka_unit_test(test_searches_pause),
+        cmocka_unit_test(test_a_long_exploration),
+        cmocka_unit_test(test_many_terms),
         cmocka_unit_test(test_endless_episodes),
         cmocka_unit_test(test_nothing_to_learn_is_said),
         cmocka_unit_test(test_equally_good_is_learnt),

@@ -554,6 +554,8 @@ static void test_lengths_are_checked(void **state) {
     refuse_saved();
     checked->model[1].tree[0].leaves = 0;
     refuse_saved();
+    checked->model[1].tree[0].leaves = (uint16_t)(checked->config.model_leaves + 1u);
+    refuse_saved();
     rlvc_ending_node *node = checked->model[1].ending.node;
     assert_true(node->component < SLIDER_COMPONENTS);
     node->component = SLIDER_COMPONENTS;
