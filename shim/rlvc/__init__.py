@@ -26,6 +26,7 @@ reinforcement learning".
 #     logs       learning from recorded interactions
 #     fleet      learning from the logs of many machines
 #     bench      what the package's calls cost
+#     cli        the commands of python -m rlvc
 from ._version import __version__
 from .agent.agent import Agent
 from .agent.batch import Batch

@@ -97,6 +97,10 @@ class CountError(Error, ValueError):
     """Interactions cannot be counted: there are too many, or too many kinds of them."""
 
 
+class LogWarning(UserWarning):
+    """Something of a log is left out or lost. The text says what, and how to keep it."""
+
+
 class MazeError(Error, ValueError):
     """The text of a maze is invalid. The message names the line, the column and the fault."""
 

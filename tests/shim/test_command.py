@@ -12,6 +12,7 @@ import pytest
 
 import rlvc
 from rlvc import __main__ as command
+from rlvc.cli import parser
 
 
 def started(*arguments, cwd=None, **options):
@@ -65,7 +66,7 @@ def test_wrong_arguments_are_told_in_one_line(arguments, capsys, monkeypatch, tm
      '{"version": 1, "tree": {"nodes": [{}]}}', "\xff", "", "NaN", '{"version": 1, "history": [1]}'],
     ids=range(11),
 )  # fmt: skip
-@pytest.mark.parametrize("kind", command._FIGURES)
+@pytest.mark.parametrize("kind", parser.FIGURES)
 def test_damaged_reports(report, kind, capsys, tmp_path):
     (tmp_path / "run.json").write_bytes(report.encode("latin1"))
     arguments = ["plot", str(tmp_path / "run.json"), kind, str(tmp_path / "a.svg")]
@@ -188,3 +189,49 @@ def test_fewer_names_than_bits(walk, tmp_path, capsys):
     for names in (5, "low", [1], None):
         with pytest.raises(rlvc.errors.ConfigError, match="names"):
             agent.save(tmp_path / "agent", names)
+
+
+def test_the_commands_do_what_the_package_does(tmp_path, capsys):
+    run, lake = str(tmp_path / "run"), ["FrozenLake-v1", "--env-arg", "is_slippery=False"]
+    learn = ["learn", *lake, "--quiet", "--discount", "0.9", "--interactions", "2000"]
+    assert command.main([*learn, "--save", run, "--compact", "--capacity", "5000"]) == 0
+    assert "5 leaves after 2000" in capsys.readouterr().out
+    kept = rlvc.load(run)
+    assert kept.agent.config.capacity == 5000
+    assert command.main(["evaluate", run, *lake, "--episodes", "3"]) == 0
+    assert "return 1 +- 0 (3 episodes)" in capsys.readouterr().out
+    assert command.main(["explain", run, "14"]) == 0
+    assert capsys.readouterr().out == f"{kept.explain(14)}\n"
+    assert command.main(["importances", run]) == 0
+    assert "number" in capsys.readouterr().out
+    assert command.main(["export", run, "--c", "-", "--name", "lake"]) == 0
+    assert capsys.readouterr().out == kept.export_c(name="lake")
+    assert (
+        command.main(
+            ["learn", *lake, "--run", run, "--interactions", "500", "--save", run, "--quiet"]
+        )
+        == 0
+    )
+    assert rlvc.load(run).interactions == 2500
+    assert command.main(["explain", run, "{"]) == 1
+    assert command.main(["evaluate", run, "FrozenLake-v1", "--env-arg", "slippery"]) == 1
+    assert "NAME=VALUE" in capsys.readouterr().err
+
+
+def test_logs_are_shown_and_converted(tmp_path, capsys):
+    log = tmp_path / "log.csv"
+    rows = "1,5;left;0;1\n1,5;right;1;1\n2,5;right;0;1\n2,5;left;1;1\n"
+    log.write_text("x;a;r;done\n" + rows * 40, encoding="utf-8")
+    assert command.main(["log", str(log)]) == 0
+    shown = capsys.readouterr().out
+    assert "2 actions: left, right" in shown
+    assert "decimal comma" in shown
+    assert command.main(["convert", str(log), str(tmp_path / "log.npz")]) == 0
+    capsys.readouterr()
+    for file in (log, tmp_path / "log.npz"):
+        assert command.main(["learn", "--log", str(file)]) == 0
+    assert "x > 2" in capsys.readouterr().out
+    episodes = "x,a,r,done,episode\n" + "".join(f"1,0,0,0,{i}\n" for i in range(5)) + "1,0,0,1,9\n"
+    log.write_text(episodes, encoding="utf-8")
+    assert command.main(["learn", "--log", str(log)]) == 0
+    assert "5 interactions are left out" in capsys.readouterr().err

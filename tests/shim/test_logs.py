@@ -61,7 +61,7 @@ def test_bits():
     cells = arrays()["observations"]
     bits = (cells[:, None] >> np.arange(3) & 1).astype(bool)
     run = rlvc.learn_from(arrays(observations=bits), discount=0.9)
-    assert run.encoder is None
+    assert run.encoder.names == ["bit 0", "bit 1", "bit 2"]
     assert [run.act(np.array([[c >> b & 1 for b in range(3)]], bool)[0]) for c in (0, 3, 6, 7)] == [
         1,
         1,
@@ -106,10 +106,11 @@ def test_csv_of_truncated_episodes(tmp_path):
         csv(["0,1,0,0,0,0", "0,2,1,0,0,1", "0,3,,,,", "1,4,0,0,0,0", "1,5,1,1,1,0", "2,6,0,0,false,True",
              "3,7,1,0,0,0", "4,8,0,1,1,0"], head), encoding="utf-8"
     )  # fmt: skip
-    log = logs.read(file)
+    with pytest.warns(errors.LogWarning, match="2 interactions are left out"):
+        log = logs.read(file)
     # What the sixth and the seventh line led to is not known.
-    assert np.asarray(log.before)[:, 0].tolist() == [1, 2, 4, 5, 8]
-    assert np.asarray(log.after)[[0, 1, 2], 0].tolist() == [2, 3, 5]
+    assert log.before["x"].tolist() == [1, 2, 4, 5, 8]
+    assert log.after["x"][:3].tolist() == [2, 3, 5]
     assert log.ends.tolist() == [0, 2, 0, 1, 1]
 
 
@@ -132,20 +133,17 @@ def test_a_log_that_stops_midway():
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"rewards": None}, "rewards: missing"),
-        ({"speed": np.zeros(3)}, "speed: not known"),
+        ({"rewards": None}, "no column reward"),
         ({"actions": np.zeros(0, int)}, "no interaction"),
-        ({"actions": np.zeros(7)}, "actions: float64"),
+        ({"actions": np.zeros(7)}, "observations: 1236; 7 actions"),
         ({"rewards": np.zeros(7)}, r"rewards: \[7\]"),
-        ({"observations": np.zeros(7)}, "observations: 7;"),
-        ({"terminated": np.full(len(arrays()["actions"]), "no")}, "terminated: <U2"),
-        ({"actions": arrays()["actions"] - 1}, r"actions: index \d+: -1"),
+        ({"observations": np.zeros(7)}, r"observations: \[7\]"),
+        ({"terminated": np.full(len(arrays()["actions"]), "no")}, "terminated: <U2: no flags"),
         (
             {"rewards": np.where(np.arange(len(arrays()["actions"])) == 9, np.nan, 0)},
-            "rewards: index 9",
+            "index 9: rewards: nan",
         ),
-        ({"observations": np.full(len(arrays()["observations"]), "x")}, "observations: <U1"),
-        ({"observations": np.full(len(arrays()["observations"]), np.nan)}, "observations: index 0"),
+        ({"observations": np.full(len(arrays()["observations"]), np.nan)}, "none in index 0"),
         ({"next_observations": np.zeros(3)}, "observations: "),
     ],
 )
@@ -246,7 +244,7 @@ def test_damaged_npz(tmp_path, content):
     ("text", "said"),
     [
         ("", "line 1: no column action"),
-        ("cell,action,reward\n", "line 1: no column terminated"),
+        ("cell,action,reward\n1,0,0\n", "line 1: no column terminated"),
         ("action,reward,terminated\n0,0,1\n", "line 1: no column for the observation"),
         ("c,c,action,reward,terminated\n", "line 1: two columns have the same name"),
         (csv([]), "no interaction"),
@@ -255,10 +253,9 @@ def test_damaged_npz(tmp_path, content):
         (csv(["1,0,0,0", "2,0.5,0,1"]), "line 3: action: 0.5 is not a whole number"),
         (csv(["1,0,inf,1"]), "line 2: reward: inf"),
         (csv(["1,0,,1"]), "line 2: reward: nan"),
-        (csv([",0,0,1"]), "line 2: cell: nan"),
+        (csv([",0,0,1"]), "none in line 2"),
         (csv(["1,0,0,2"]), "line 2: terminated: 2.0"),
         (csv(["1,,0,1"]), "line 2: terminated without an action"),
-        (csv(["1,300,0,1"]), "actions: index 0: 300"),
         ('cell,action,reward,terminated\n"1,0,0,1\n', "cannot be read as CSV"),
     ],
 )
@@ -273,8 +270,12 @@ def test_damaged_csv(tmp_path, text, said):
 def test_other_files(tmp_path):
     file = tmp_path / "log.txt"
     file.write_text("", encoding="utf-8")
-    with pytest.raises(errors.LogError, match=r"neither \.npz nor \.csv"):
+    with pytest.raises(errors.LogError, match="no column action"):
         rlvc.learn_from(file)
+    other = tmp_path / "log.xyz"
+    other.write_text("1,2,3", encoding="utf-8")
+    with pytest.raises(errors.LogError, match="neither CSV"):
+        rlvc.learn_from(other)
     with pytest.raises(errors.LogError, match="cannot be read"):
         rlvc.learn_from(tmp_path / "none.csv")
     binary = tmp_path / "log.csv"

@@ -13,6 +13,7 @@ import rlvc
 import rlvc.envs
 from rlvc import __main__ as command
 from rlvc import errors, plot, report
+from rlvc.cli import parser
 from rlvc.plot import mazes
 
 OF_BITS = ["maze", "values", "curve", "splits", "tree"]  # test_tiled.py has the others
@@ -34,7 +35,7 @@ def made(run, env):
 
 
 def test_the_command_knows_every_picture():
-    assert tuple(plot.KINDS) == command._FIGURES
+    assert tuple(plot.KINDS) == parser.FIGURES
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg"])

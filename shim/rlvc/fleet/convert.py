@@ -89,9 +89,7 @@ def convert(
         bits = domain.bits
         source.before, source.after, source.record_bytes = before, after, domain.percept_bytes
         all_of_it = columns_of_log(source, bits)
-    count = whole(
-        "actions", actions or source.action_count or int(source.actions.max()) + 1, 1, 255
-    )
+    count = whole("actions", actions or source.known.count, 1, 255)
     filesystem, within = filesystem_of(str(folder))
     filesystem.create_dir(within, recursive=True)
     names = []

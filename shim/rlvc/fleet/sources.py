@@ -13,7 +13,7 @@ import numpy as np
 from ..counts.table import Columns
 from ..errors import LogError
 from ..logs.controller_log import is_records
-from ..logs.learn_from import read
+from ..logs import read
 from ..logs.log import Log
 from . import columns as foreign
 from . import layout
@@ -137,7 +137,7 @@ def _pieces_of(path: str) -> tuple[list[Piece], int, int]:
     if _is_whole(path):
         log = read(path)
         bits = 8 * log.record_bytes or foreign.bits_of_log(log)
-        actions = log.action_count or int(log.actions.max()) + 1
+        actions = log.known.count
         return [Piece(path, rows=len(log), bytes=Path(path).stat().st_size)], bits, actions
     with _parquet(path) as file:
         bits, actions = _facts(file.schema_arrow, path)

@@ -32,11 +32,23 @@ from ..errors import ConfigError, PerceptError, SpaceError
 from ..words import explain
 from .parts import Part, parts_of
 
-__all__ = ["Columns", "Encoder", "Numbers", "explain"]
+__all__ = ["Columns", "Encoder", "Flags", "Numbers", "explain"]
 
 
 class Numbers:
     """A space of arrays of numbers, encoded like a Box; for logs, without Gymnasium.
+
+    Parameters
+    ----------
+    shape : tuple of int
+    """
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        self.shape = shape
+
+
+class Flags:
+    """A space of arrays of truth values, encoded like a MultiBinary; for logs, without Gymnasium.
 
     Parameters
     ----------
@@ -68,6 +80,8 @@ class Columns:
 def _parts(space: Any) -> list[Part]:
     if isinstance(space, Numbers):
         return [Part("reals", (), space.shape)]
+    if isinstance(space, Flags):
+        return [Part("flags", (), space.shape)]
     if isinstance(space, Columns):
         return [
             Part("reals", (name,), ())
@@ -83,7 +97,7 @@ class Encoder:
 
     Parameters
     ----------
-    space : gymnasium.Space, Numbers or Columns
+    space : gymnasium.Space, Numbers, Flags or Columns
         Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of these.
     thresholds : int
         Maximum number of cutpoints for each component of real numbers; 0: no limit.

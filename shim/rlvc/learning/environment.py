@@ -70,7 +70,11 @@ class Environment:
             return
         masks = np.asarray(mask).reshape(self.count, -1)
         fits = masks.shape[1] == self.actions.count and masks.dtype != object
-        self.masks = masks.astype(np.bool_) if fits else None
+        if not fits:
+            self.masks = None
+            return
+        self.masks = masks.astype(np.bool_)
+        self.masks |= ~self.masks.any(axis=1, keepdims=True)  # none allowed: none is forbidden
 
     def split(self, batch: Any) -> list[Any]:
         """Return the observations of a batch as a list."""

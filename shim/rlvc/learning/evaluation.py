@@ -92,8 +92,7 @@ def _play_all(run: Run, stream: Environment, episodes: int) -> Evaluation:
         chosen = np.array(run.indices(percepts), np.int64)
         if stream.masks is not None:
             for i, mask in enumerate(stream.masks):
-                if mask.any():  # of a dead environment none may be allowed
-                    chosen[i] = best_allowed(run, percepts[i], int(chosen[i]), mask)
+                chosen[i] = best_allowed(run, percepts[i], int(chosen[i]), mask)
         dead = stream.dead
         _, rewards, terminated, truncated = stream.step_all(chosen)
         sums[~dead] += rewards[~dead]

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ..agent.agent import Agent
-from ..errors import EnvError
 
 if TYPE_CHECKING:
     from .run import Run
@@ -26,6 +25,7 @@ def allowed(
     percept : bytes
     choice : Choice
     mask : ndarray of bool, [actions]
+        At least one is True.
     draw : int
         Number of the interaction, by which an exploring action is drawn.
 
@@ -36,7 +36,7 @@ def allowed(
     """
     if choice[1]:
         return best_allowed(run, percept, choice[0], mask), True
-    options = _options(mask)
+    options = np.flatnonzero(mask)
     return int(options[(draw * 2654435761 >> 7) % len(options)]), False
 
 
@@ -59,7 +59,7 @@ def best_allowed(run: Run, percept: Any, action: int, mask: npt.NDArray[np.bool_
     """
     if mask[action]:
         return action
-    options = _options(mask)
+    options = np.flatnonzero(mask)
     if isinstance(run.acting, Agent):
         class_id = run.agent.predict(percept).class_id
         q, samples = run.tables()
@@ -67,10 +67,3 @@ def best_allowed(run: Run, percept: Any, action: int, mask: npt.NDArray[np.bool_
         if len(tried):
             return int(tried[np.argmax(q[class_id][tried])])
     return int(options[np.searchsorted(options, action) % len(options)])
-
-
-def _options(mask: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
-    options = np.flatnonzero(mask)
-    if len(options) == 0:
-        raise EnvError("action_mask: the environment allows no action")
-    return options

@@ -1,31 +1,55 @@
 # SPDX-License-Identifier: MIT
-"""Learning from logs: arrays, NPZ, CSV, Minari data sets, and the logs that a controller writes.
+"""Learning from logs of any kind: tables, arrays, data sets, and the logs that a controller writes.
 
-A log is a sequence of episodes of T interactions. In arrays, each episode has T + 1 observations:
-the last one is the observation after the last interaction. All other arrays have T elements for
-each episode. An episode ends where ``terminated`` or ``truncated`` is true; a log that stops in the
-middle of an episode counts as truncated there.
+A log is a sequence of interactions, in episodes. Each has an observation, an action, a reward, and
+what was observed next: in a column of its own, in the next row, or, if an episode of T interactions
+has T + 1 observations, in the next of these. An episode ends where it is ``terminated`` or
+``truncated``, or with its number; a log that stops in the middle of one counts as truncated there.
 
-The log of a controller (``core/include/rlvc/log.h``) holds percepts, not observations. A record
-that a power failure cut short is skipped; other damage is an error.
+==================  =====================================================================
+log                 what is read
+==================  =====================================================================
+CSV, TSV            a row for each interaction; comma, semicolon, tab or bar, decimal comma,
+                    byte order mark, comments, blanks, arrays in brackets, words
+JSON, JSON Lines    an object for each interaction, or for each episode
+NPZ, dict           arrays, as of D4RL
+HDF5                the same, or a group for each episode: D4RL, d3rlpy, robomimic, Minari
+Parquet, pandas     a row for each interaction, as of LeRobot and RLlib
+Minari              data sets, with their spaces
+replay buffers      of Stable-Baselines3
+rlvc/log.h          percepts; a record that a power failure cut short is skipped
+==================  =====================================================================
+
+:mod:`rlvc.logs.roles` lists the names of columns that are understood. ``next_...`` is never a part of
+the observation. :meth:`Log.describe` says what became of each column; :class:`rlvc.errors.LogWarning`
+says what is left out or lost.
 
 All readers return a :class:`Log`. They raise :class:`~rlvc.errors.LogError` if the log cannot be
-read or is damaged; the message names the file, the line or index, and the fault.
+read or is damaged; the message names the file, the line, index or column, and the fault.
 """
 
-from .array_log import from_arrays, from_npz
+from .array_log import from_arrays, from_hdf5, from_npz
+from .buffer_log import from_buffer
 from .controller_log import from_records
 from .csv_log import from_csv
-from .learn_from import learn_from, read
+from .frame_log import from_frame, from_json, from_parquet
+from .learn_from import learn_from
 from .log import Log
 from .minari_log import from_minari
+from .read import described, read
 
 __all__ = [
     "Log",
+    "described",
     "from_arrays",
+    "from_buffer",
     "from_csv",
+    "from_frame",
+    "from_hdf5",
+    "from_json",
     "from_minari",
     "from_npz",
+    "from_parquet",
     "from_records",
     "learn_from",
     "read",

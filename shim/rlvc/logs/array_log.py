@@ -1,131 +1,256 @@
 # SPDX-License-Identifier: MIT
-"""Logs of arrays, in memory or in an NPZ file."""
+"""Logs of arrays: in memory, in an NPZ file, in HDF5, or in the buffer of another library."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import LogError
 from ..files import open_file
-from ..learning.interact import ends_of
-from .log import Log, checked
-
-_FIELDS = ("observations", "actions", "rewards", "terminated")
-_OPTIONAL = ("truncated", "exploited")
-
-
-def _array(values: Any, name: str, where: str) -> npt.NDArray[Any]:
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError) as error:
-        raise LogError(f"{where}: {name}: not an array: {error}") from None
-    if array.ndim == 0:
-        raise LogError(f"{where}: {name}: not an array but {values!r:.80}")
-    return array
+from ..learning.actions import Actions
+from .log import Log
+from .roles import roles_of
+from .table import Array, Table, from_table
 
 
-def _column(
-    arrays: dict[str, Any], name: str, count: int, where: str, kind: str
-) -> npt.NDArray[Any]:
-    values = np.asarray(arrays[name])
-    if values.ndim == 2 and values.shape[1] == 1:
-        values = values[:, 0]
-    if values.shape != (count,):
-        raise LogError(f"{where}: {name}: {list(values.shape)}, not [{count}]")
-    if values.dtype.kind not in kind:
-        raise LogError(f"{where}: {name}: {values.dtype}: wrong kind of numbers")
-    return values
-
-
-def from_arrays(arrays: dict[str, Any], where: str = "log") -> Log:
-    """Make a log from arrays.
+def from_arrays(
+    arrays: Mapping[str, Any],
+    where: str = "log",
+    columns: Sequence[str] | None = None,
+    bins: int | None = None,
+    known: Actions | None = None,
+) -> Log:
+    """Make a log of arrays with an element for each interaction.
 
     Parameters
     ----------
     arrays : dict
-        ``observations`` [sum(T + 1), ...]; ``actions``, ``rewards`` and ``terminated`` [sum(T)];
-        optional ``truncated`` and ``exploited`` [sum(T)]. With ``next_observations`` [sum(T), ...],
-        the observations are [sum(T), ...] as well.
+        ``observations`` [n, ...], ``actions``, ``rewards`` and ``terminated`` [n], and others:
+        :mod:`rlvc.logs.roles` lists their names. The next observation is in ``next_observations``, or
+        in the next element; or else observations are [n + episodes, ...], with one after the last
+        interaction of each episode.
     where : str
         Name of the log in errors.
+    columns : sequence of str or None
+        Names of the arrays that are the observation.
+    bins : int or None
+        Of actions that are real numbers: into how many they are divided.
+    known : Actions or None
+        The actions; None: those of the log.
     """
-    for name in _FIELDS:
-        if name not in arrays:
-            raise LogError(
-                f"{where}: {name}: missing (present: {', '.join(sorted(map(str, arrays))) or 'none'})"
-            )
-    known = {*_FIELDS, *_OPTIONAL, "next_observations"}
-    unknown = sorted(map(str, set(arrays) - known))
-    if unknown:
-        raise LogError(f"{where}: {unknown[0]}: not known; allowed are {', '.join(sorted(known))}")
-    arrays = {name: _array(arrays[name], name, where) for name in arrays}
-    count = np.size(arrays["actions"])
+    values = {name: _array(value, name, where) for name, value in _flat(arrays)}
+    roles = roles_of(values, where, columns)
+    count = len(values[roles.actions[0]])
     if count == 0:
         raise LogError(f"{where}: actions: there is no interaction")
-    actions = _column(arrays, "actions", count, where, "iu").astype(np.int64)
-    with np.errstate(over="ignore"):  # checked() refuses what is out of range
-        rewards = _column(arrays, "rewards", count, where, "fiu").astype(np.float32)
-    terminated = _column(arrays, "terminated", count, where, "biu").astype(np.bool_)
-    truncated = np.zeros(count, np.bool_)
-    if "truncated" in arrays:
-        truncated = _column(arrays, "truncated", count, where, "biu").astype(np.bool_)
-    exploited = None
-    if "exploited" in arrays:
-        exploited = _column(arrays, "exploited", count, where, "biu").astype(np.bool_)
-    ends = ends_of(terminated, truncated)
-    observations = np.asarray(arrays["observations"])
-    if "next_observations" in arrays:
-        before, after = observations, np.asarray(arrays["next_observations"])
-        for name, values in (("observations", before), ("next_observations", after)):
-            if len(values) != count:
-                raise LogError(f"{where}: {name}: {len(values)} for {count} actions")
-        if _kind(before) != _kind(after):
-            raise LogError(
-                f"{where}: next_observations: {after.dtype}{list(after.shape)}, expected what "
-                f"observations are: {before.dtype}{list(before.shape)}"
-            )
-    else:
-        before, after = _split_episodes(observations, ends, where)
-    return checked(Log(before, after, actions, rewards, ends, exploited, where))
+    notes: list[str] = []
+    if not roles.after and all(len(values[name]) > count for name in roles.seen):
+        roles_after = _next_of_episodes(values, roles, count, where)
+        values |= roles_after
+        notes.append("an observation after the last interaction of each episode")
+    used = {*roles.one.values(), *roles.actions, *roles.seen, *roles.after}
+    used |= {f"next_{name}" for name in roles.seen if f"next_{name}" in values}
+    for name in used:
+        if len(values[name]) != count:
+            raise LogError(f"{where}: {name}: {list(values[name].shape)} for {count} actions")
+    kept = {name: column for name, column in values.items() if name in used or len(column) == count}
+    other = [f"{name} {list(values[name].shape)}" for name in values if name not in kept]
+    if other:
+        notes.append(f"not one for each interaction, so ignored: {', '.join(other)}")
+    return from_table(Table(kept, lambda i: f"index {i}", where, notes), columns, bins, known)
 
 
-def _kind(observations: npt.NDArray[Any]) -> tuple[Any, ...]:
-    """What the observations of a log have in common: their shape, and whether they are numbers."""
-    kind = observations.dtype.kind
-    return observations.shape[1:], "number" if kind in "fiu" else observations.dtype
+def _flat(arrays: Mapping[Any, Any], start: str = "") -> Iterator[tuple[str, Any]]:
+    """The arrays of dicts in dicts, by names such as observations.x."""
+    for key, value in arrays.items():
+        name = f"{start}{key}"
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{name}.")
+        else:
+            yield name, value
 
 
-def _split_episodes(
-    observations: npt.NDArray[Any], ends: npt.NDArray[np.uint8], where: str
-) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    """Return s and s' of each interaction, if each episode has T + 1 observations."""
-    if ends[-1] == 0:
-        ends[-1] = 2
-    starts = np.concatenate(([0], ends[:-1] != 0))
-    index = np.arange(len(ends)) + np.cumsum(starts)
-    wanted = int(index[-1]) + 2
-    if len(observations) != wanted:
+def _array(values: Any, name: str, where: str) -> Array:
+    try:
+        if hasattr(values, "to_numpy"):
+            values = values.to_numpy()
+        array = np.asarray(values)
+        if array.dtype == object:
+            array = _plainer(array)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise LogError(f"{where}: {name}: not an array: {error}") from None
+    if array.ndim == 0:
+        raise LogError(f"{where}: {name}: not an array but {values!r:.80}")
+    if array.dtype.kind not in "bfiuUO" or (array.ndim > 1 and array.shape[1:].count(0)):
         raise LogError(
-            f"{where}: observations: {len(observations)}; {len(ends)} actions in "
-            f"{int(starts.sum()) + 1} episodes need {wanted}"
+            f"{where}: {name}: {array.dtype}{list(array.shape)}: no numbers and no words"
         )
-    return observations[index], observations[index + 1]
+    return array
 
 
-def from_npz(path: str | Path) -> Log:
+def _plainer(array: Array) -> Array:
+    """Objects as numbers or words: None and pandas' NA are missing."""
+    listed = [None if _is_missing(value) else value for value in array.ravel()]
+    words = [isinstance(value, str) for value in listed if value is not None]
+    if words and all(words):
+        return np.array(listed, object).reshape(array.shape)
+    numbers = [np.nan if value is None else value for value in listed]
+    first = next((value for value in listed if value is not None), None)
+    if isinstance(first, list | tuple | np.ndarray):
+        shape = np.shape(first)
+        rows = [np.full(shape, np.nan) if v is None else np.asarray(v, float) for v in listed]
+        if any(row.shape != shape for row in rows):
+            raise ValueError("arrays of several shapes: give each episode's observations one shape")
+        return np.stack(rows)
+    return np.array(numbers, np.float64).reshape(array.shape)
+
+
+def _is_missing(value: Any) -> bool:
+    return value is None or type(value).__name__ in ("NAType", "NaTType")
+
+
+def _next_of_episodes(
+    values: dict[str, Array], roles: Any, count: int, where: str
+) -> dict[str, Array]:
+    """Take observations [n + episodes] apart: those before and after each interaction."""
+    ends = np.zeros(count, np.bool_)
+    for role in ("terminated", "done", "truncated"):
+        if role in roles.one and len(values[roles.one[role]]) == count:
+            flags = values[roles.one[role]].reshape(count, -1)[:, 0]
+            if flags.dtype.kind not in "bfiu":
+                raise LogError(f"{where}: {roles.one[role]}: {flags.dtype}: no flags 0 or 1")
+            ends |= flags == 1
+    episode = values.get(roles.one.get("episode", ""))
+    if episode is not None and len(episode) == count:
+        ends[:-1] |= episode[1:] != episode[:-1]
+    ends[-1] = True
+    index = np.arange(count) + np.concatenate(([0], np.cumsum(ends[:-1])))
+    wanted = int(index[-1]) + 2
+    found: dict[str, Array] = {}
+    for name in roles.seen:
+        if len(values[name]) != wanted:
+            raise LogError(
+                f"{where}: {name}: {len(values[name])}; {count} actions in {int(ends.sum())} episodes "
+                f"need {wanted}, or {count} with next observations in the next element"
+            )
+        found |= {name: values[name][index], f"next_{name}": values[name][index + 1]}
+    return found
+
+
+def _of_all(name: str, episode: dict[str, Any]) -> Any:
+    """An episode's array; of one flag for all, whether its last interaction ended it."""
+    values = np.asarray(episode[name])
+    count = len(episode.get("actions", episode.get("action", ())))
+    if (
+        values.ndim == 0
+        and values.dtype.kind in "biu"
+        and name.startswith(("term", "trunc", "timeout"))
+    ):
+        return np.append(np.zeros(max(count - 1, 0), np.bool_), bool(values))
+    return values
+
+
+def from_npz(path: str | Path, **arguments: Any) -> Log:
     """Read a log from an NPZ file with the arrays of :func:`from_arrays`.
 
     Parameters
     ----------
     path : str or Path
+    **arguments
+        Of :func:`from_arrays`.
     """
     try:
         with open_file(path) as file, np.load(file, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
     except Exception as error:  # of zipfile, of what it unpacks with, of numpy's parser
-        raise LogError(f"{path}: cannot be read as NPZ: {error}") from error
-    return from_arrays(arrays, str(path))
+        more = ": save arrays of numbers, not of objects" if "pickle" in str(error) else ""
+        raise LogError(f"{path}: cannot be read as NPZ: {error}{more}") from error
+    return from_arrays(arrays, str(path), **arguments)
+
+
+def from_hdf5(path: str | Path, **arguments: Any) -> Log:
+    """Read a log from an HDF5 file: of D4RL, d3rlpy, robomimic or Minari.
+
+    Parameters
+    ----------
+    path : str or Path
+        With arrays as of :func:`from_arrays`, or a group or numbered arrays for each episode.
+    **arguments
+        Of :func:`from_arrays`.
+    """
+    try:
+        import h5py
+    except ImportError:
+        raise ImportError("HDF5 files need h5py: pip install 'rlvc[logs]'") from None
+    arrays: dict[str, Any] = {}
+
+    def take(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Dataset) and item.dtype.kind in "bfiu":
+            arrays[name] = item[()]
+
+    try:
+        open_file(path).close()  # a regular file
+        with h5py.File(path, "r") as file:
+            file.visititems(take)
+    except (OSError, RuntimeError, ValueError, KeyError) as error:
+        raise LogError(f"{path}: cannot be read as HDF5: {error}") from error
+    return from_episodes(_by_episode(arrays), str(path), **arguments)
+
+
+def _by_episode(arrays: dict[str, Any]) -> list[dict[str, Any]]:
+    """Sort arrays into episodes: groups (episode_3/actions) or numbers (actions_3); or all in one."""
+    episodes: dict[int, dict[str, Any]] = {}
+    whole: dict[str, Any] = {}
+    arrays = {path: array for path, array in arrays.items() if np.ndim(array) or "_" in path}
+    for path, array in arrays.items():
+        parts = path.split("/")
+        number = next((m for part in parts[:-1] if (m := re.fullmatch(r"\D*?_?(\d+)", part))), None)
+        numbered = re.fullmatch(r"(.+)_(\d+)", parts[-1])
+        if number is not None:
+            at = next(i for i, part in enumerate(parts) if part == number[0])
+            episodes.setdefault(int(number[1]), {})["/".join(parts[at + 1 :])] = array
+        elif numbered:
+            episodes.setdefault(int(numbered[2]), {})[numbered[1]] = array
+        else:
+            whole[path] = array
+    listed = [episodes[i] for i in sorted(episodes)]
+    if any("actions" in episode or "action" in episode for episode in listed):
+        return [episode for episode in listed if len(episode) > 1]
+    return [{path: array for path, array in arrays.items() if np.ndim(array)}]
+
+
+def from_episodes(episodes: list[dict[str, Any]], where: str, **arguments: Any) -> Log:
+    """Make a log of episodes, each a dict of arrays: one after the other, with their numbers.
+
+    Parameters
+    ----------
+    episodes : list of dict of arrays
+    where : str
+    **arguments
+        Of :func:`from_arrays`.
+    """
+    if not episodes:
+        raise LogError(f"{where}: there is no interaction")
+    if len(episodes) == 1:
+        return from_arrays(episodes[0], where, **arguments)
+    names = set.intersection(*(set(episode) for episode in episodes))
+    joined: dict[str, Any] = {}
+    lengths = None
+    for name in sorted(names):
+        try:
+            joined[name] = np.concatenate([_of_all(name, episode) for episode in episodes])
+        except (TypeError, ValueError):
+            continue  # single values, or shapes that differ: no array of the log
+        if name in ("actions", "action"):
+            lengths = [len(episode[name]) for episode in episodes]
+    if lengths is None:
+        raise LogError(
+            f"{where}: no column action in each episode (present: {', '.join(sorted(names))})"
+        )
+    joined["episode"] = np.repeat(np.arange(len(episodes)), lengths)
+    return from_arrays(joined, where, **arguments)

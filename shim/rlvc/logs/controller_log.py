@@ -13,6 +13,7 @@ from .. import _native
 from ..agent.results import CHOICE
 from ..errors import LogError
 from ..files import open_file, read
+from ..learning.actions import Actions
 from .log import Log
 
 _MAGIC = b"\xa5\x01"  # start of a record, and its kind: header
@@ -99,6 +100,7 @@ def from_records(path: str | Path) -> Log:
         arrays["ends"],
         arrays["choices"]["exploited"] == 1,
         str(path),
+        Actions(records.actions),
+        notes=[f"log of a controller: percepts of {size} bytes"],
         record_bytes=size,
-        action_count=records.actions,
     )

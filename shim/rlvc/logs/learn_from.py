@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,55 +20,8 @@ from ..learning.actions import Actions
 from ..learning.encode import Encoder, Numbers
 from ..learning.learn import default_config, domain_of
 from ..learning.run import Record, Run
-from .array_log import from_arrays, from_npz
-from .controller_log import from_records, is_records
-from .csv_log import from_csv
 from .log import Log
-from .minari_log import from_minari
-
-
-def read(log: Any, columns: Sequence[str] | None = None) -> Log:
-    """Read a log of any kind.
-
-    Parameters
-    ----------
-    log : dict of arrays, path of a file, Minari data set or its name, or Log
-        A file is an NPZ, a CSV or the log of a controller.
-    columns : sequence of str or None
-        Columns of a CSV that form the observation.
-    """
-    if isinstance(log, Log):
-        return log
-    if isinstance(log, dict):
-        return from_arrays(log)
-    if isinstance(log, str | Path):
-        if is_records(log):
-            return from_records(log)
-        suffix = Path(log).suffix.lower()
-        if suffix == ".npz":
-            return from_npz(log)
-        if suffix == ".csv":
-            return from_csv(log, columns)
-        if isinstance(log, Path) or Path(log).exists():
-            raise LogError(f"{log}: neither .npz nor .csv, nor the log of a controller")
-    if isinstance(log, str) or hasattr(log, "iterate_episodes"):
-        return from_minari(log)
-    raise LogError(
-        "a log is a dict of arrays, the path of a file, or a Minari data set or its name, and not "
-        f"{type(log).__name__}"
-    )
-
-
-def _space_of(log: Log) -> Numbers:
-    values = np.asarray(log.before)
-    if values.dtype.kind not in "fiu":
-        raise LogError(f"{log.where}: observations: {values.dtype}: pass their space")
-    return Numbers(values.shape[1:])
-
-
-def _in_words(name: str, columns: list[str]) -> str:
-    """Replace ``x[i]``, or ``x`` if there is only one, by the name of its column."""
-    return re.sub(r"^x(?:\[(\d+)\])?", lambda match: columns[int(match[1] or 0)], name)
+from .read import read
 
 
 def _domain_of_records(log: Log, domain: Domain | int | None) -> Domain:
@@ -92,54 +43,93 @@ def _domain_of_records(log: Log, domain: Domain | int | None) -> Domain:
     return domain
 
 
+def _of_records(
+    log: Log, domain: Domain | int | None
+) -> tuple[Domain, npt.NDArray[Any], npt.NDArray[Any]]:
+    """The domain and percepts of a controller's log, in the type of the domain."""
+    made = _domain_of_records(log, domain)
+    sides = [
+        np.ascontiguousarray(side).view(made.percept_dtype).reshape(-1, *made.percept_shape)
+        for side in (log.before, log.after)
+    ]
+    return made, sides[0], sides[1]
+
+
 def encoded(
-    log: Log, encoder: Encoder | None, space: Any, thresholds: int
-) -> tuple[Domain, Encoder | None, npt.NDArray[Any], npt.NDArray[Any]]:
+    log: Log, encoder: Any, space: Any, thresholds: int, names: Sequence[str] | None = None
+) -> tuple[Domain, Any, npt.NDArray[Any], npt.NDArray[Any]]:
     """Return the domain, the encoder, and the percepts before and after each interaction.
 
     Parameters
     ----------
     log : Log
         Of observations.
-    encoder, space, thresholds
+    encoder, space, thresholds, names
         As for :func:`learn_from`.
     """
-    values = None if isinstance(log.before, list) else np.asarray(log.before)
-    if encoder is None and space is None and values is not None and values.dtype == np.bool_:
-        if values.ndim != 2:
-            raise LogError(
-                f"{log.where}: observations: bool{list(values.shape)}, not bool[n, bits]"
-            )
-        pack = [np.packbits(v, axis=1, bitorder="little") for v in (values, np.asarray(log.after))]
-        return Bits(values.shape[1]), None, pack[0], pack[1]
     if encoder is None:
-        chosen = space if space is not None else _space_of(log)
-        encoder = Encoder(chosen, thresholds)
-        if log.columns:
-            encoder.names = [_in_words(name, log.columns) for name in encoder.names]
+        space = log.space if space is None else space
+        space = Numbers(np.shape(log.before)[1:]) if space is None else space
+        encoder = Encoder(space, thresholds, names)
     domain = domain_of(encoder)
     sides = []
     for side, name in ((log.before, "observations"), (log.after, "next observations")):
-        records = []
-        for i in range(len(log)):
-            try:
-                records.append(encoder.encode(side[i]))
-            except PerceptError as error:
-                raise LogError(f"{log.where}: {name}: index {i}: {error}") from error
-        flat = np.frombuffer(b"".join(records), domain.percept_dtype)
-        sides.append(flat.reshape(len(log), *domain.percept_shape))
+        quick = type(encoder) is Encoder and not isinstance(side, list)
+        try:
+            sides.append(
+                encoder.encode_many(side) if quick else _one_by_one(log, encoder, side, name)
+            )
+        except PerceptError as error:
+            sides.append(_one_by_one(log, encoder, side, name))
+            raise LogError(f"{log.where}: {name}: {error}") from error
     return domain, encoder, sides[0], sides[1]
+
+
+def _one_by_one(log: Log, encoder: Any, side: Any, name: str) -> npt.NDArray[Any]:
+    """Encode each observation, and say which is wrong."""
+    domain, records = domain_of(encoder), []
+    columns = list(side.values()) if isinstance(side, dict) else None
+    for i in range(len(log)):
+        row = side[i] if columns is None else [column[i] for column in columns]
+        row = row[0] if columns is not None and len(columns) == 1 else row
+        try:
+            records.append(encoder.encode(row))
+        except PerceptError as error:
+            raise LogError(f"{log.where}: {name}: index {i}: {error}") from error
+    flat = np.frombuffer(b"".join(records), domain.percept_dtype)
+    return flat.reshape(len(log), *domain.percept_shape)
+
+
+def _counted(log: Log, actions: int | None) -> Actions:
+    """The actions of a log, or as many as the caller says."""
+    if actions is None:
+        return log.known
+    count = whole("actions", actions, 1, 255)
+    known = log.known
+    if known.table is not None or known.words:
+        raise ConfigError(f"actions: the log has {known.count} of its own: leave actions out")
+    numbers = log.actions + known.start
+    bad = np.flatnonzero((numbers < 0) | (numbers >= count))
+    if len(bad):
+        raise LogError(
+            f"{log.where}: actions: index {bad[0]}: {numbers[bad[0]]} is not in [0, {count})"
+        )
+    log.actions = numbers
+    return Actions(count)
 
 
 def learn_from(
     log: Any,
     *,
     columns: Sequence[str] | None = None,
+    header: Sequence[str] | None = None,
     actions: int | None = None,
+    bins: int | None = None,
     space: Any = None,
-    encoder: Encoder | None = None,
+    encoder: Any = None,
     domain: Domain | int | None = None,
     thresholds: int = 15,
+    names: Sequence[str] | None = None,
     steps: int = 1,
     **config: Any,
 ) -> Run:
@@ -147,14 +137,23 @@ def learn_from(
 
     Parameters
     ----------
-    log : dict of arrays, path of a file, Minari data set or its name
-        The formats are in :mod:`rlvc.logs`. A file is an NPZ, a CSV or the log of a controller.
+    log : dict of arrays, pandas.DataFrame, path, Minari data set or its name, or replay buffer
+        The formats are in :mod:`rlvc.logs`; ``rlvc.logs.read(log).describe()`` says how one is
+        understood. A file is CSV in any dialect, JSON, JSON Lines, NPZ, HDF5, Parquet, or the log of a
+        controller.
     columns : sequence of str or None
-        Columns of a CSV that form the observation.
+        Columns that form the observation. None: those that are named so, else all without another
+        meaning.
+    header : sequence of str or None
+        The names of the columns of a CSV that has none.
     actions : int or None
-        Number of actions. None: as the log says, or the highest action plus one.
+        Number of actions, from 0 on. None: as the log says.
+    bins : int or None
+        Of actions that are real numbers: into how many each element is divided, from the least to
+        the greatest; the nearest is taken.
     space : gymnasium.Space or None
-        Space of the observations. None: bits if they are bool, else real numbers.
+        Space of the observations. None: that of the data set; else bits if they are bool, words, or
+        real numbers.
     encoder : object or None
         As for :func:`rlvc.learn`.
     domain : Domain, int or None
@@ -162,6 +161,8 @@ def learn_from(
         bits of the percepts.
     thresholds : int
         Maximum number of cutpoints for each element of an observation; 0: no limit.
+    names : sequence of str or None
+        A name for each number of an observation. None: those of the columns.
     steps : int
         Number of learning steps. The residual criterion needs one. With the criterion of returns,
         step k looks k interactions ahead, and each step uses the whole log.
@@ -179,45 +180,50 @@ def learn_from(
     ConfigError
         A field is out of range, or the log lacks what the criterion needs.
 
+    Warns
+    -----
+    LogWarning
+        Something of the log is left out, or numbers become one in binary32.
+
     Notes
     -----
     Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True.
     """
     if isinstance(columns, str):
         columns = [columns]
-    read_log = read(log, columns)
-    if config.get("criterion") == "returns" and read_log.exploited is None:
+    log = read(log, columns, header, bins)
+    if config.get("criterion") == "returns" and log.exploited is None:
         raise ConfigError("criterion: returns needs a log with exploited")
     steps = whole("steps", steps, 1, 2**31)
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
-    highest = int(read_log.actions.max())
-    if actions is None:
-        actions = read_log.action_count or highest + 1
-    count = whole("actions", actions, 1, 255)
-    if highest >= count:
-        index = int(np.argmax(read_log.actions >= count))
-        raise LogError(
-            f"{read_log.where}: actions: index {index}: {read_log.actions[index]} is not in [0, {count})"
-        )
-    if read_log.record_bytes:
-        domain = _domain_of_records(read_log, domain)
-        encoder, before, after = None, read_log.before, read_log.after
+    known = _counted(log, actions)
+    if log.record_bytes:
+        made, before, after = _of_records(log, domain)
+        encoder = None
     else:
-        domain, encoder, before, after = encoded(read_log, encoder, space, thresholds)
-    settings = default_config(count, len(read_log), seed, config)
-    run = Run(Agent(domain, settings), encoder, settings.seed, Actions(count))
-    choices = np.zeros(len(read_log), CHOICE)
-    choices["action"] = read_log.actions
-    if read_log.exploited is not None:
-        choices["exploited"] = read_log.exploited
+        made, encoder, before, after = encoded(log, encoder, space, thresholds, names)
+    settings = default_config(known.count, len(log), seed, config)
+    run = Run(Agent(made, settings), encoder, settings.seed, known)
+    _see(run, before, made)
+    choices = np.zeros(len(log), CHOICE)
+    choices["action"] = log.actions
+    if log.exploited is not None:
+        choices["exploited"] = log.exploited
     for k in range(steps):
         if k == 0 or settings.criterion == "returns":
-            run.agent.observe_many(before, choices, read_log.rewards, after, read_log.ends)
+            run.agent.observe_many(before, choices, log.rewards, after, log.ends)
         try:
             splits = run.agent.learn().splits
         except KeyboardInterrupt:
             run.interrupted = True
             break
         classes = run.agent.classes
-        run.history.append(Record(k + 1, len(read_log), classes, splits, 0, float("nan")))
+        run.history.append(Record(k + 1, len(log), classes, splits, 0, float("nan")))
     return run
+
+
+def _see(run: Run, percepts: npt.NDArray[Any], domain: Domain) -> None:
+    """Keep some of the percepts, evenly spaced, for the importances."""
+    stride = -(-len(percepts) // run.seen.room)
+    run.seen.percepts = [domain.pack(np.ascontiguousarray(row)) for row in percepts[::stride]]
+    run.seen.count, run.seen.stride = len(percepts), stride

@@ -7,18 +7,21 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import LogError
+from ..errors import Error, LogError
+from ..learning.actions import actions_of, indices_of
 from ..learning.interact import ends_of
 from .log import Log, checked
 
 
-def from_minari(dataset: Any) -> Log:
-    """Read a log from a Minari data set.
+def from_minari(dataset: Any, bins: int | None = None) -> Log:
+    """Read a log from a Minari data set, with its spaces.
 
     Parameters
     ----------
     dataset : minari.MinariDataset or str
         A str is the name of a local data set. ``exploited`` is read from the infos, if it is there.
+    bins : int or None
+        If actions are a Box: into how many numbers each element is divided; the nearest is taken.
     """
     if isinstance(dataset, str):
         dataset = _loaded(dataset)
@@ -48,18 +51,29 @@ def from_minari(dataset: Any) -> Log:
             parts["x"].append(np.asarray(infos["exploited"], np.bool_)[-count:])
     if not parts["a"]:
         raise LogError(f"{name}: there is no interaction")
-    actions = np.concatenate(parts["a"])
-    if actions.dtype.kind not in "iu" or actions.ndim != 1:
-        raise LogError(f"{name}: actions: {actions.dtype}{list(actions.shape)}: must be ints")
+    actions, known = _actions(np.concatenate(parts["a"]), dataset.spec.action_space, bins, name)
     rewards, ends = np.concatenate(parts["r"]), np.concatenate(parts["e"])
     exploited = np.concatenate(parts["x"]) if parts["x"] else None
     if exploited is not None and len(exploited) != len(actions):
         raise LogError(
             f"{name}: infos: exploited: {len(exploited)} of them for {len(actions)} actions"
         )
-    start = int(getattr(dataset.spec.action_space, "start", 0))
-    actions = actions.astype(np.int64) - start
-    return checked(Log(parts["before"], parts["after"], actions, rewards, ends, exploited, name))
+    space = dataset.spec.observation_space
+    notes = [f"observation: {space}"]
+    before, after = parts["before"], parts["after"]
+    return checked(Log(before, after, actions, rewards, ends, exploited, name, known, space, notes))
+
+
+def _actions(values: Any, space: Any, bins: int | None, name: str) -> tuple[Any, Any]:
+    try:
+        known = actions_of(space, bins)
+    except Error as error:
+        raise LogError(f"{name}: actions: {error}") from None
+    if bins is not None and known.table is not None:
+        flat = known.table.reshape(known.count, -1).astype(np.float64)
+        rows = values.reshape(len(values), -1).astype(np.float64)
+        return np.abs(rows[:, None] - flat[None]).sum(axis=2).argmin(axis=1), known
+    return indices_of(values, known, name), known
 
 
 def _loaded(name: str) -> Any:
@@ -70,7 +84,7 @@ def _loaded(name: str) -> Any:
     try:
         return minari.load_dataset(name)
     except (OSError, ValueError, KeyError) as error:
-        raise LogError(f"{name}: cannot be loaded: {error}") from error
+        raise LogError(f"{name}: no such file, and no Minari data set: {error}") from error
 
 
 def _observations(observations: Any) -> list[Any]:

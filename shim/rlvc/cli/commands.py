@@ -1,0 +1,269 @@
+# SPDX-License-Identifier: MIT
+"""What the commands of ``python -m rlvc`` do."""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import io
+import json
+import sys
+from typing import Any
+
+import numpy as np
+
+from .. import files, logs
+from ..agent.agent import Agent
+from ..agent.config import CHOICES
+from ..agent.planned_policy import PlannedPolicy, is_policy
+from ..agent.planned_policy import read_file as read_policy
+from ..agent.snapshot import read_file
+from ..errors import ConfigError, EnvError, Error, RunError
+from ..fleet import command as fleet
+from ..learning.learn import learn
+from ..learning.run import Run
+from ..learning.store import is_run, load
+from ..logs import learn_from
+from ..words import explain
+from .parser import config_fields
+
+INTERRUPTED = 130  # exit status: 128 and the number of the signal
+
+
+def _chosen(arguments: argparse.Namespace, *names: str) -> dict[str, Any]:
+    """The arguments that were given, of these names and of the configs."""
+    listed = (*names, *config_fields(), *CHOICES)
+    chosen = {name: getattr(arguments, name, None) for name in listed}
+    return {name: value for name, value in chosen.items() if value is not None}
+
+
+def _environment(name: str, given: list[str]) -> Any:
+    try:
+        import gymnasium
+    except ImportError:
+        raise ImportError("environments need Gymnasium: pip install 'rlvc[gym]'") from None
+    if name.startswith("rlvc/"):
+        from .. import envs
+
+        envs.register()
+    arguments = {}
+    for text in given:
+        key, sign, value = text.partition("=")
+        if not sign:
+            raise ConfigError(f"--env-arg: {text!r:.80} is not NAME=VALUE")
+        try:
+            arguments[key] = ast.literal_eval(value)
+        except (SyntaxError, ValueError):
+            arguments[key] = value
+    try:
+        return gymnasium.make(name, **arguments)
+    except ImportError:
+        raise
+    except Exception as error:  # of Gymnasium, or of the environment
+        raise EnvError(f"{name}: cannot be made: {error}") from error
+
+
+def _write(file: str, text: str) -> None:
+    if file == "-":
+        print(text, end="")
+    else:
+        files.replace(file, text.encode())
+
+
+def learn_command(arguments: argparse.Namespace) -> int:
+    """Learn, write and print what was learnt."""
+    if (arguments.env is None) == (arguments.log is None):
+        raise Error("learn: give either ENV or --log FILE")
+    env = None
+    try:
+        if arguments.env is not None:
+            env = _environment(arguments.env, arguments.env_arg)
+            options: tuple[str, ...] = ("every", "thresholds", "names", "bins", "hold", "method")
+            run = learn(
+                env,
+                arguments.interactions,
+                seed=arguments.seed,
+                progress=not arguments.quiet,
+                run=load(arguments.run) if arguments.run else None,
+                **_chosen(arguments, *options),
+            )
+        else:
+            options = ("columns", "header", "actions", "bins", "thresholds", "names", "steps")
+            run = learn_from(arguments.log, seed=arguments.seed, **_chosen(arguments, *options))
+    except Exception as error:
+        if isinstance(getattr(error, "run", None), Run):
+            _keep(error.run, env, arguments)  # type: ignore[attr-defined]
+        raise
+    if arguments.compact:
+        run.compact()
+    _keep(run, env, arguments)
+    if run.interrupted:
+        print("rlvc: interrupted: the result is incomplete", file=sys.stderr)
+        return INTERRUPTED
+    if env is not None and arguments.episodes > 0:
+        mean = run.evaluate(env, arguments.episodes, seed=arguments.seed).mean
+        print(f"mean return of {arguments.episodes} episodes: {mean:.4g}")
+    return 0
+
+
+def _summary(count: int, interactions: int, one: str = "class", many: str = "classes") -> str:
+    """The number of classes or leaves, and of interactions."""
+    return f"{count} {one if count == 1 else many} after {interactions} interactions"
+
+
+def _counted(run: Run) -> str:
+    words = ("class", "classes") if isinstance(run.acting, Agent) else ("leaf", "leaves")
+    return _summary(run.leaves, run.interactions, *words)
+
+
+def _keep(run: Run, env: Any, arguments: argparse.Namespace) -> None:
+    """Write the result: files first, as the reader of the text may close the output."""
+    if arguments.save:
+        run.save(arguments.save)
+    if arguments.json:
+        from .. import report
+
+        _write(arguments.json, json.dumps(report.make(run, env), indent=1) + "\n")
+    if arguments.c:
+        _write(arguments.c, run.export_c())
+    print(run.text(), end="")
+    print(_counted(run))
+
+
+def show_command(arguments: argparse.Namespace) -> int:
+    """Print the tree of what was saved."""
+    file = arguments.file
+    if is_run(file):
+        run = load(file)
+        print(run.text(), end="")
+        print(_counted(run))
+    elif is_policy(file):
+        policy, names = read_policy(file)
+        print(explain(policy.print("text"), names), end="")
+    else:
+        names = read_file(file)[2]
+        agent = Agent.load(file)
+        print(explain(agent.print("text"), names), end="")
+        print(_summary(agent.classes, agent.statistics.interactions))
+    return 0
+
+
+def evaluate_command(arguments: argparse.Namespace) -> int:
+    """Play episodes with a saved run."""
+    env = _environment(arguments.env, arguments.env_arg)
+    evaluation = load(arguments.file).evaluate(env, arguments.episodes, arguments.seed)
+    print(f"return {evaluation}, {evaluation.lengths.mean():.4g} decisions an episode")
+    return 0
+
+
+def explain_command(arguments: argparse.Namespace) -> int:
+    """Print the path of an observation."""
+    try:
+        observation = json.loads(arguments.observation)
+    except ValueError as error:
+        raise ConfigError(
+            f"observation: {arguments.observation!r:.80} is not JSON: {error}"
+        ) from None
+    print(load(arguments.file).explain(observation))
+    return 0
+
+
+def importances_command(arguments: argparse.Namespace) -> int:
+    """Print what matters to a policy."""
+    for name, share in load(arguments.file).importances().items():
+        print(f"{share:7.3f}  {name}")
+    return 0
+
+
+def export_command(arguments: argparse.Namespace) -> int:
+    """Write what was saved as C."""
+    file = arguments.file
+    if is_run(file):
+        text = load(file).export_c(name=arguments.name)
+    else:
+        saved = PlannedPolicy.load(file) if is_policy(file) else Agent.load(file)
+        text = saved.export_c(arguments.name)
+    _write(arguments.c, text)
+    return 0
+
+
+def plot_command(arguments: argparse.Namespace) -> int:
+    """Draw a run or a report."""
+    from .. import plot
+
+    try:
+        source = load(arguments.run) if is_run(arguments.run) else arguments.run
+        plot.KINDS[arguments.kind](source, arguments.file)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        if isinstance(error, Error):
+            raise
+        raise RunError(f"{arguments.run}: damaged: {error!r:.200}") from error
+    return 0
+
+
+def log_command(arguments: argparse.Namespace) -> int:
+    """Show how a log is understood."""
+    options = {name: getattr(arguments, name) for name in ("columns", "header", "bins")}
+    print(logs.described(arguments.log, **options), end="")
+    return 0
+
+
+def convert_command(arguments: argparse.Namespace) -> int:
+    """Write a log as NPZ."""
+    log = logs.read(arguments.log, arguments.columns, arguments.header, arguments.bins)
+    if log.record_bytes:
+        raise ConfigError(
+            f"{arguments.log}: has percepts, not observations: read it with its domain"
+        )
+    arrays: dict[str, Any] = {
+        "actions": log.known.of_many(log.actions),
+        "rewards": log.rewards,
+        "terminated": log.ends == 1,
+        "truncated": log.ends == 2,
+    }
+    for name, side in (("", log.before), ("next_", log.after)):
+        if isinstance(side, dict):
+            arrays |= {f"{name}obs_{key}": np.asarray(v, _plain(v)) for key, v in side.items()}
+        else:
+            arrays[f"{name}observations"] = np.asarray(side)
+    content = io.BytesIO()
+    np.savez(content, allow_pickle=False, **arrays)
+    files.replace(arguments.to, content.getvalue())
+    print(log.describe(), end="")
+    return 0
+
+
+def _plain(values: Any) -> Any:
+    """The dtype to keep a column in: words as text."""
+    return str if values.dtype == object else values.dtype
+
+
+def fleet_command(arguments: argparse.Namespace) -> int:
+    """Learn from the logs of many machines."""
+    run = fleet.run(arguments)
+    if run is not None:
+        _keep(run, None, arguments)
+    return 0
+
+
+def bench_command(_: argparse.Namespace) -> int:
+    """Time the package."""
+    from .. import bench
+
+    bench.main()
+    return 0
+
+
+COMMANDS = {
+    "learn": learn_command,
+    "show": show_command,
+    "evaluate": evaluate_command,
+    "explain": explain_command,
+    "importances": importances_command,
+    "export": export_command,
+    "plot": plot_command,
+    "log": log_command,
+    "convert": convert_command,
+    "fleet": fleet_command,
+    "bench": bench_command,
+}

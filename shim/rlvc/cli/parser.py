@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""The arguments of ``python -m rlvc``."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from collections.abc import Callable
+from typing import Any, NoReturn, get_args
+
+from .._version import __version__
+from ..agent.config import CHOICES, Config
+from ..agent.planner_config import PlannerConfig
+from ..fleet import command as fleet
+from ..learning.learn import Method
+
+FIGURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
+
+
+class _Parser(argparse.ArgumentParser):
+    """Prints an error on one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"rlvc: {message}; {self.prog} --help tells more\n")
+
+
+def _number(least: int) -> Callable[[str], int]:
+    """Make the type of integers that are at least `least`."""
+
+    def taken(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            value = least - 1
+        if value < least:
+            raise argparse.ArgumentTypeError(f"{text!r:.80} is not an integer of at least {least}")
+        return value
+
+    return taken
+
+
+_whole, _seed = _number(1), _number(0)
+
+
+def _truth(text: str) -> bool:
+    if text.lower() in ("true", "yes", "1"):
+        return True
+    if text.lower() in ("false", "no", "0"):
+        return False
+    raise argparse.ArgumentTypeError(f"{text!r:.80} is neither yes nor no")
+
+
+def _listed(text: str) -> list[str]:
+    return text.split(",")
+
+
+def _bins(text: str) -> int | list[int]:
+    try:
+        numbers = [int(part) for part in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text!r:.80} is not an integer, or a list A,B,..."
+        ) from None
+    return numbers[0] if len(numbers) == 1 else numbers
+
+
+def config_fields() -> dict[str, Any]:
+    """The fields of the configs that have an option of their own, and how a text becomes a value."""
+    kinds: dict[str, Any] = {"int": int, "float": float, "bool": _truth}
+    found: dict[str, Any] = {}
+    for field in (*dataclasses.fields(Config), *dataclasses.fields(PlannerConfig)):
+        kind = str(field.type).split(" |")[0]
+        if kind in kinds and field.name not in ("actions", "seed"):
+            found[field.name] = kinds[kind]
+    return found
+
+
+def _option(name: str) -> str:
+    return "--" + name.replace("_", "-")
+
+
+def _add_log_options(add: Any) -> None:
+    add(
+        "--columns",
+        metavar="A,B,...",
+        type=_listed,
+        help="columns of a log that are the observation",
+    )
+    add(
+        "--header",
+        metavar="A,B,...",
+        type=_listed,
+        help="names of the columns of a CSV that has none",
+    )
+
+
+def _add_env_options(add: Any) -> None:
+    add("--env-arg", metavar="NAME=VALUE", action="append", default=[],
+        help="argument of the environment, such as is_slippery=False")  # fmt: skip
+
+
+def _add_learn(commands: Any) -> None:
+    learn = commands.add_parser(
+        "learn",
+        help="learn from an environment or a log",
+        description="Learns from a Gymnasium environment or from a log, and prints the tree.",
+    )
+    add = learn.add_argument
+    add("env", nargs="?", metavar="ENV", help="environment, such as FrozenLake-v1 or MODULE:ID")
+    add("--log", metavar="FILE", help="log of any kind, or name of a Minari data set")
+    add("--interactions", type=_whole, metavar="N", default=10_000,
+        help="number of interactions with ENV (default: %(default)s)")  # fmt: skip
+    add("--seed", type=_seed, metavar="N", default=1,
+        help="seed of all random numbers (default: %(default)s)")  # fmt: skip
+    add("--run", metavar="FILE", help="go on with a saved run in ENV")
+    _add_env_options(add)
+    add("--every", type=_whole, metavar="N", help="interactions between two learning steps")
+    add("--thresholds", type=_seed, metavar="N", help="most cutpoints of a component; 0: no limit")
+    add("--names", type=_listed, metavar="A,B,...", help="names of the numbers of an observation")
+    add(
+        "--bins",
+        type=_bins,
+        metavar="N",
+        help="how many numbers of each element of a Box of actions",
+    )
+    add("--hold", type=_whole, metavar="N", help="for how many steps an action is taken")
+    _add_log_options(add)
+    add("--actions", type=_whole, metavar="N", help="number of actions of --log")
+    add(
+        "--steps", type=_whole, metavar="N", help="number of learning steps with --log (default: 1)"
+    )
+    add("--episodes", type=_seed, metavar="N", default=100,
+        help="number of episodes to play after learning (default: %(default)s)")  # fmt: skip
+    add("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
+    add("--c", metavar="FILE", help="write the policy as a C header; -: print it")
+    add(
+        "--save",
+        metavar="FILE",
+        help="write the run: show, evaluate, explain, plot and export read it",
+    )
+    add("--compact", action="store_true", help="let the smallest tree act that acts as well")
+    add("--quiet", action="store_true", help="show no progress bar")
+    add("--method", choices=get_args(Method),
+        help="how to learn (default: planner on real numbers from ENV, else classes)")  # fmt: skip
+    config = learn.add_argument_group(
+        "config", "rlvc.Config and rlvc.PlannerConfig document these; each method has its own."
+    )
+    for name, kind in config_fields().items():
+        config.add_argument(_option(name), type=kind, metavar="X")
+    for name, values in CHOICES.items():
+        config.add_argument(_option(name), choices=values)
+
+
+def _add_of_a_run(commands: Any) -> None:
+    def command(name: str, text: str, description: str) -> Any:
+        added = commands.add_parser(name, help=text, description=description)
+        added.add_argument(
+            "file", metavar="RUN", help="a saved run; also an agent or a policy where it serves"
+        )
+        return added.add_argument
+
+    command("show", "print what was saved", "Prints the tree of a saved run, agent or policy.")
+    add = command("evaluate", "play with a saved run", "Plays episodes without exploring.")
+    add("env", metavar="ENV")
+    _add_env_options(add)
+    add("--episodes", type=_whole, metavar="N", default=100, help="(default: %(default)s)")
+    add(
+        "--seed",
+        type=_seed,
+        metavar="N",
+        default=1,
+        help="of the first reset (default: %(default)s)",
+    )
+    add = command(
+        "explain", "say why a run acts so", "Prints the path of an observation through the tree."
+    )
+    add("observation", metavar="JSON", help="such as 5, '[0.1, -0.2]' or '{\"mode\": \"heat\"}'")
+    command(
+        "importances", "measure what matters", "Prints how often the action depends on each number."
+    )
+    add = command("export", "write what was saved as C", "Writes the policy as a C header.")
+    add("--c", metavar="FILE", required=True, help="the header; -: print it")
+    add("--name", metavar="NAME", default="policy", help="prefix in C (default: %(default)s)")
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Make the parser of all commands.
+
+    Returns
+    -------
+    argparse.ArgumentParser
+    """
+    parser = _Parser(
+        prog="python -m rlvc", description="Learns small, readable decision trees from rewards."
+    )
+    parser.add_argument("--version", action="version", version=f"rlvc {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_learn(commands)
+    _add_of_a_run(commands)
+
+    plot = commands.add_parser(
+        "plot",
+        help="draw a run or a report",
+        description="Draws a saved run, or a report of 'learn --json' or of run_gridworld --json.",
+    )
+    plot.add_argument("run", metavar="RUN")
+    plot.add_argument("kind", choices=FIGURES)
+    plot.add_argument("file", metavar="FILE", help="a .png, .svg or .pdf")
+
+    log = commands.add_parser(
+        "log",
+        help="show how a log is understood",
+        description="Shows how a log is understood, and what of it is left out, without learning.",
+    )
+    log.add_argument("log", metavar="FILE")
+    convert = commands.add_parser(
+        "convert",
+        help="write a log of any kind as NPZ",
+        description="Writes a log of any kind as arrays in an NPZ file, which 'learn --log' reads.",
+    )
+    convert.add_argument("log", metavar="FILE")
+    convert.add_argument("to", metavar="FILE.npz")
+    for each in (log, convert):
+        _add_log_options(each.add_argument)
+        each.add_argument("--bins", type=_whole, metavar="N",
+            help="how many numbers of actions that are real")  # fmt: skip
+
+    fleet.add(commands)
+    commands.add_parser(
+        "bench", help="time the package", description="Measures the time of the package's calls."
+    )
+    return parser
