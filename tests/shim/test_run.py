@@ -209,3 +209,15 @@ def test_files_of_runs_that_are_damaged(tmp_path):
         rlvc.load(file)
     with pytest.raises(errors.StoreError):
         rlvc.load(tmp_path / "none")
+
+
+def test_a_planner_goes_on_where_it_stopped(tmp_path):
+    env = gymnasium.make("CartPole-v1")
+    run = rlvc.learn(env, 600, seed=1)
+    run.save(tmp_path / "run.rlvc")
+    other = rlvc.load(tmp_path / "run.rlvc")
+    for each in (run, other):
+        each.learn(env, 400, seed=2)
+    assert run.text() == other.text()
+    assert run.history == other.history
+    assert run.interactions == 1000

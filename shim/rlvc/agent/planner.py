@@ -113,8 +113,11 @@ class Planner(Handle):
         if snapshot is None:
             status = _native.call.rlvc_planner_init(_byref(native), *place, _byref(planner))
         else:
-            store = _byref(MemoryStore(self._snapshot_bytes(), snapshot).native)
-            status = _native.call.rlvc_planner_load(_byref(native), *place, store, _byref(planner))
+            store = MemoryStore(self._snapshot_bytes(), snapshot)  # owns what C reads
+            reference = _byref(store.native)
+            status = _native.call.rlvc_planner_load(
+                _byref(native), *place, reference, _byref(planner)
+            )
         self._check(status)
         self._handle = self._address = planner.value
         self._memory_bytes = size.value

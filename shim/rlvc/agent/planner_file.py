@@ -45,7 +45,7 @@ def write_file(file: str | Path, planner: Planner, names: Sequence[str]) -> None
         raise ConfigError(f"names: {names!r:.80} is not a list of str")
     snapshot = planner.snapshot()
     head = {
-        "thresholds": planner.domain.parameters,
+        "thresholds": planner._thresholds.parameters,
         "names": list(names),
         "config": dataclasses.asdict(planner.config),
         "bytes": len(snapshot),

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..counts.table import Columns
 from ..errors import LogError
-from ..logs.controller_log import is_records
 from ..logs import read
+from ..logs.controller_log import is_records
 from ..logs.log import Log
 from . import columns as foreign
 from . import layout

@@ -256,7 +256,7 @@ def _need_same(run: Run, stream: Environment, given: list[Any], hold: int) -> No
     if any(value is not None for value in given) or hold not in (1, run.actions.hold):
         raise ConfigError("run: it keeps its encoder, actions, method and config: leave them out")
     if isinstance(run.learner, PlannedPolicy):
-        raise ConfigError("run: a planner's copy has its policy only, and cannot learn on")
+        raise ConfigError("run: a policy by itself cannot learn on")
     if run.encoder is None:
         raise ConfigError("run: it learnt from percepts, and has no encoder for observations")
     if stream.vector and isinstance(run.learner, Planner):

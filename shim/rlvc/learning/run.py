@@ -86,8 +86,8 @@ class Run:
     Attributes
     ----------
     learner : Agent, Planner or PlannedPolicy
-        What learnt: a planner on real numbers, else an agent. A copy of a planner's run, pickled,
-        saved or not, has only the planner's policy: it acts, but does not learn on.
+        What learnt: a planner on real numbers, else an agent; a policy by itself acts, but does not
+        learn on.
     encoder : Encoder or None
         None if there are no observations, only percepts.
     actions : Actions

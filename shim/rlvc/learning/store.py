@@ -4,7 +4,8 @@
 The file of a run is a line ``rlvc run 1``, a line of JSON, the library's snapshot of the learner, the
 percepts that were seen, and the CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``,
 ``descriptors`` and ``thresholds``, one of which holds the parameters of the domain; ``config`` of an
-agent, or ``nodes`` of a planner's policy; and the encoder, the actions and the history.
+agent, ``planner``, the config of a planner, or ``nodes`` of a policy; and the encoder, the actions and
+the history.
 """
 
 from __future__ import annotations
@@ -20,10 +21,11 @@ from ..agent.agent import Agent
 from ..agent.config import Config
 from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
+from ..agent.planner_config import PlannerConfig
 from ..agent.snapshot import described, domain_of
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
-from ..errors import Error, SnapshotError, StoreError
+from ..errors import BusyError, Error, SnapshotError, StoreError
 from ..files import open_file, read, replace, tidy
 from .actions import Actions
 from .encode import Encoder
@@ -52,12 +54,11 @@ def packed(run: Run) -> bytes:
     bytes
     """
     learner, snapshot = run.learner, b""
-    if isinstance(learner, Planner):
-        learner = learner.policy()
     head: dict[str, Any] = {}
-    if isinstance(learner, Agent):
-        snapshot = learner.snapshot()
-        head["config"] = dataclasses.asdict(learner.config)
+    if isinstance(learner, Agent | Planner):
+        snapshot = _snapshot(learner)
+        name = "config" if isinstance(learner, Agent) else "planner"
+        head[name] = dataclasses.asdict(learner.config)
     else:
         head |= {"actions": learner.actions, "nodes": learner.nodes}
     head |= {
@@ -77,6 +78,15 @@ def packed(run: Run) -> bytes:
     text = json.dumps(head, default=lambda number: number.item())  # numpy's numbers
     content = b"".join([_MAGIC, text.encode(), b"\n", snapshot, *run.seen.percepts])
     return content + zlib.crc32(content).to_bytes(4, "little")
+
+
+def _snapshot(learner: Agent | Planner) -> bytes:
+    """The learner's snapshot; a planner's step that was interrupted is finished first."""
+    try:
+        return learner.snapshot()
+    except BusyError:
+        learner.learn()
+        return learner.snapshot()
 
 
 def write(run: Run, file: str | Path) -> None:
@@ -143,9 +153,11 @@ def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None
     if head["encoder"] is not None:
         encoder = Encoder.from_json(head["encoder"])
     snapshot, kept = rest[: head["bytes"]], rest[head["bytes"] :]
-    learner: Agent | PlannedPolicy
+    learner: Agent | Planner | PlannedPolicy
     if "config" in head:
         learner = Agent.restore(domain, Config(**head["config"]), snapshot)
+    elif "planner" in head and isinstance(domain, Thresholds):
+        learner = Planner.restore(domain, PlannerConfig(**head["planner"]), snapshot)
     elif isinstance(domain, Thresholds):
         learner = PlannedPolicy(domain, head["actions"], head["nodes"])
     else:
