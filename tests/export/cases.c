@@ -17,7 +17,7 @@ static union {
     unsigned char bytes[RLVC_AGENT_BYTES(4, 30000, 400, BYTES_MAX, RLVC_BITS_FEATURE_BYTES, 64)];
     unsigned char vectors[RLVC_AGENT_BYTES(
         4, VECTORS_CAPACITY, 400, sizeof(vectors),
-        RLVC_DESCRIPTORS_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT), 64)];
+        RLVC_SPATIAL_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT), 64)];
 } memory;
 
 static void must(rlvc_status status, const char *what) {
@@ -158,7 +158,7 @@ static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
 
 static learnt learn_vectors(uint32_t form) {
     static rlvc_descriptors descriptors;
-    learnt made = {NULL, 0, &descriptors};
+    learnt made = {NULL, 0, &descriptors, NULL};
     rlvc_domain domain;
     uint64_t state = 1;
     must(rlvc_descriptors_default(&descriptors, POINTS, DIMENSIONS, form, 150.0f), "default");
@@ -171,6 +171,74 @@ static learnt learn_vectors(uint32_t form) {
         memset(&percept, 0, sizeof percept);
         draw_vectors(&state, form, &percept);
         decide(made.agent, &percept, wanted_of_vectors(&percept, form));
+    }
+    learn(made.agent);
+    return made;
+}
+
+/* ------------------------------------------------------------------ pairs */
+
+static size_t place_at(const rlvc_spatial *spatial, uint32_t point) {
+    return RLVC_DESCRIPTORS_PERCEPT_BYTES(POINTS, DIMENSIONS, spatial->vectors.form) + 4u * point;
+}
+
+void get_place(const rlvc_spatial *spatial, const vectors *percept, uint32_t point,
+               int16_t place[2]) {
+    const unsigned char *byte = percept->bytes + place_at(spatial, point);
+    for (uint32_t k = 0; k < 2u; k++)
+        place[k] = (int16_t)((int)byte[2u * k] | (int)(int8_t)byte[2u * k + 1u] * 256);
+}
+
+void set_place(const rlvc_spatial *spatial, vectors *percept, uint32_t point,
+               const int16_t place[2]) {
+    unsigned char *byte = percept->bytes + place_at(spatial, point);
+    for (uint32_t k = 0; k < 4u; k++)
+        byte[k] = (unsigned char)((unsigned)place[k / 2u] >> 8u * (k % 2u));
+}
+
+void draw_places(uint64_t *state, const rlvc_spatial *spatial, vectors *percept) {
+    for (uint32_t point = 0; point < POINTS; point++) {
+        const int16_t place[2] = {(int16_t)(draw(state) % 2u * 60u + draw(state) % 3u),
+                                  (int16_t)(draw(state) % 3u)};
+        const int8_t direction[2] = {(int8_t)(127 - (int)(draw(state) % 2u)),
+                                     (int8_t)((int)(draw(state) % 21u) - 10)};
+        set_place(spatial, percept, point, place);
+        if (spatial->directed)
+            memcpy(percept->bytes + place_at(spatial, POINTS) + 2u * point, direction, 2u);
+    }
+}
+
+/* What to do, by which of two things is left of the other if both are there. */
+static uint32_t wanted_of_pairs(const rlvc_spatial *spatial, const vectors *percept) {
+    uint32_t near = 0;
+    int16_t at[PLACES + 1u] = {0};
+    for (uint32_t point = 0; point < percept->count; point++) {
+        const float first = get_number(percept->bytes, spatial->vectors.form, point * DIMENSIONS);
+        const uint32_t place = (uint32_t)((first + 110.0f) / 40.0f);
+        int16_t where[2];
+        get_place(spatial, percept, point, where);
+        at[place] = where[0];
+        near |= 1u << place;
+    }
+    return (near & 3u) == 3u ? (at[0] + 30 < at[1] ? 2u : 1u) : near & 4u ? 3u : 0u;
+}
+
+static learnt learn_pairs(uint32_t form, uint32_t directed) {
+    static rlvc_spatial spatial;
+    learnt made = {NULL, 0, &spatial.vectors, &spatial};
+    rlvc_domain domain;
+    uint64_t state = 1;
+    must(rlvc_spatial_default(&spatial, POINTS, DIMENSIONS, form, directed, 150.0f), "default");
+    spatial.vectors.candidates = 24;
+    spatial.vectors.draws = 2;
+    must(rlvc_spatial_domain(&spatial, &domain), "domain");
+    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f);
+    for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
+        vectors percept;
+        memset(&percept, 0, sizeof percept);
+        draw_vectors(&state, form, &percept);
+        draw_places(&state, &spatial, &percept);
+        decide(made.agent, &percept, wanted_of_pairs(&spatial, &percept));
     }
     learn(made.agent);
     return made;
@@ -189,7 +257,7 @@ static uint32_t wanted_of_numbers(const float *x) {
 
 static learnt learn_numbers(uint8_t oblique) {
     static rlvc_thresholds thresholds;
-    learnt made = {NULL, 0, NULL};
+    learnt made = {NULL, 0, NULL, NULL};
     rlvc_domain domain;
     uint64_t state = 1;
     must(rlvc_thresholds_default(&thresholds, COMPONENTS), "default");
@@ -208,14 +276,17 @@ static learnt learn_numbers(uint8_t oblique) {
 /* ------------------------------------------------------------------ cases */
 
 learnt learn_case(uint32_t i) {
+    if (i >= 9)
+        return learn_numbers(i == 10);
     if (i >= 7)
-        return learn_numbers(i == 8);
+        return i == 7 ? learn_pairs(RLVC_DESCRIPTORS_INT8, 0)
+                      : learn_pairs(RLVC_DESCRIPTORS_FLOAT, 1);
     if (i >= 5)
         return learn_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8);
     static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};
     static const uint32_t capacity[] = {4000, 100, 12000, 6000, 30000};
     static const uint32_t depth[] = {0, 0, 4, 4, 6};
-    learnt made = {NULL, bits[i], NULL};
+    learnt made = {NULL, bits[i], NULL, NULL};
     rlvc_domain domain;
     must(rlvc_bits_domain(bits[i], &domain), "domain");
     made.agent = make_agent(&domain, capacity[i], i == 0 ? 0.9f : 1.0f);

@@ -13,11 +13,16 @@
  * many    so many leaves that the table of nodes is in words
  * floats  descriptors, as floats
  * int8s   descriptors, as int8_t
+ * pairs   pairs of descriptors, as int8_t
+ * turned  pairs of descriptors, as floats, with directions
  * reals   thresholds
  * slants  oblique thresholds */
 #define CASE_NAMES                                                                                 \
-    { "maze", "single", "bytes", "wide", "many", "floats", "int8s", "reals", "slants" }
-#define CASES 9u
+    {                                                                                              \
+        "maze", "single", "bytes", "wide", "many", "floats", "int8s", "pairs", "turned", "reals",  \
+            "slants"                                                                               \
+    }
+#define CASES 11u
 
 #define POINTS 4u
 #define DIMENSIONS 36u
@@ -27,12 +32,13 @@ typedef struct learnt {
     rlvc_agent *agent;
     uint32_t bits;                       /* 0: descriptors or thresholds */
     const rlvc_descriptors *descriptors; /* of which the percepts are, or null */
+    const rlvc_spatial *spatial;         /* likewise */
 } learnt;
 
-/* A percept of descriptors in either form, aligned. */
+/* A percept of descriptors in either form, with places or without, or a feature; aligned. */
 typedef union vectors {
     uint32_t count;
-    unsigned char bytes[RLVC_DESCRIPTORS_PERCEPT_BYTES(POINTS, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)];
+    unsigned char bytes[RLVC_SPATIAL_PERCEPT_BYTES(POINTS, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT, 1)];
 } vectors;
 
 /* A random number; seed *state with anything. */
@@ -40,6 +46,15 @@ uint32_t draw(uint64_t *state);
 
 /* Draws a percept of 0 to POINTS vectors, each near one of a few places. */
 void draw_vectors(uint64_t *state, uint32_t form, vectors *percept);
+
+/* Draws the places of its points: at the left or at the right. */
+void draw_places(uint64_t *state, const rlvc_spatial *spatial, vectors *percept);
+
+/* The place of a point, which may be changed. */
+void get_place(const rlvc_spatial *spatial, const vectors *percept, uint32_t point,
+               int16_t place[2]);
+void set_place(const rlvc_spatial *spatial, vectors *percept, uint32_t point,
+               const int16_t place[2]);
 
 /* Number k of the vectors of a percept, or of a feature. */
 void set_number(unsigned char *record, uint32_t form, uint32_t k, float number);

@@ -4,17 +4,19 @@
  * first fall on a path to each leaf of the tree (many, the other bits being random). Of others, on
  * RLVC_EXPORT_REALS. Of these,
  * of descriptors, half have a vector whose distance from a feature is its radius up to a few
- * roundings; of thresholds, half lie on a cutpoint up to a few roundings. And an agent that learnt
- * the same exports the same, to the letter. */
+ * roundings, and of pairs half have one in place or nearly; of thresholds, half lie on a cutpoint
+ * up to a few roundings. And an agent that learnt the same exports the same, to the letter. */
 #include "bytes.h"
 #include "cases.h"
 #include "floats.h"
 #include "int8s.h"
 #include "many.h"
 #include "maze.h"
+#include "pairs.h"
 #include "reals.h"
 #include "single.h"
 #include "slants.h"
+#include "turned.h"
 #include "wide.h"
 
 #include <stdio.h>
@@ -38,13 +40,17 @@ static unsigned exported(uint32_t i, const unsigned char *percept) {
         return many_act(percept);
     case 5:
         return floats_act(percept);
-    default:
+    case 6:
         return int8s_act(percept);
+    case 7:
+        return pairs_act(percept);
+    default:
+        return turned_act(percept);
     }
 }
 
 static unsigned exported_of_numbers(uint32_t i, const float *x) {
-    return i == 7 ? reals_act(x) : slants_act(x);
+    return i == 9 ? reals_act(x) : slants_act(x);
 }
 
 /* 1 if both act alike. */
@@ -119,6 +125,31 @@ static int check_some(const learnt *made, uint32_t i) {
     return 1;
 }
 
+/* Gives a percept the two vectors of a feature, so far apart as it says up to a little more than it
+ * allows. */
+static void put_pair(const learnt *made, uint32_t split_number, vectors *percept) {
+    const uint32_t form = made->descriptors->form;
+    const uint32_t bytes = RLVC_DESCRIPTORS_VECTOR_BYTES(DIMENSIONS, form);
+    rlvc_split split;
+    vectors feature;
+    int16_t place[2];
+    float apart[2];
+    if (rlvc_split_at(made->agent, split_number, &split, &feature) != RLVC_OK ||
+        !rlvc_spatial_is_pair(made->spatial, &feature))
+        return;
+    percept->count = POINTS;
+    for (uint32_t k = 0; k < DIMENSIONS; k++) {
+        set_number(percept->bytes, form, k, get_number(feature.bytes + 12u, form, k));
+        set_number(percept->bytes, form, DIMENSIONS + k,
+                   get_number(feature.bytes + 12u + bytes, form, k));
+    }
+    memcpy(apart, feature.bytes + 8u, sizeof apart);
+    get_place(made->spatial, percept, 0, place);
+    for (uint32_t k = 0; k < 2u; k++)
+        place[k] = (int16_t)(place[k] + (int)apart[k] + (int)(draw(&state) % 61u) - 30);
+    set_place(made->spatial, percept, 1, place);
+}
+
 /* Puts the first vector of a percept just so far from that of a feature as its radius reaches: each
  * number is off by radius / 6, and there are 36. */
 static void put_at_edge(const learnt *made, uint32_t split_number, vectors *percept) {
@@ -128,12 +159,13 @@ static void put_at_edge(const learnt *made, uint32_t split_number, vectors *perc
     if (rlvc_split_at(made->agent, split_number, &split, &feature) != RLVC_OK)
         return;
     const float radius = rlvc_descriptors_radius(&feature);
+    const uint32_t skip = made->spatial ? 12u : 0; /* scale and displacement */
     percept->count = 1u + percept->count % POINTS;
     for (uint32_t k = 0; k < DIMENSIONS; k++) {
         const float roundings = (float)(draw(&state) % 33u) - 16.0f;
         const float off = radius / 6.0f * (1.0f + 1.2e-7f * roundings);
         set_number(percept->bytes, form, k,
-                   get_number(feature.bytes, form, k) + (draw(&state) % 2u ? off : -off));
+                   get_number(feature.bytes + skip, form, k) + (draw(&state) % 2u ? off : -off));
     }
 }
 
@@ -156,8 +188,12 @@ static int check_vectors(const learnt *made, uint32_t i) {
         uint32_t class_id = 0;
         memset(&percept, 0, sizeof percept);
         draw_vectors(&state, made->descriptors->form, &percept);
+        if (made->spatial)
+            draw_places(&state, made->spatial, &percept);
         if (n % 2u)
             put_at_edge(made, draw(&state) % (statistics.classes - 1u), &percept);
+        if (made->spatial && n % 4u > 1u)
+            put_pair(made, draw(&state) % (statistics.classes - 1u), &percept);
         if (!same(made, i, percept.bytes) ||
             rlvc_predict(made->agent, &percept, &class_id, NULL) != RLVC_OK)
             return 0;

@@ -106,7 +106,7 @@ static uint32_t held; /* the memory that the agent is in */
 static rlvc_agent *agent;
 
 static void choose_domain(void) {
-    world.inner = world_domain(next_below(4), next_below(2));
+    world.inner = world_domain(next_below(5), next_below(2));
     domain = world.inner;
     domain.exhibits = exhibits;
     domain.candidates = candidates;

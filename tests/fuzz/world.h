@@ -5,7 +5,7 @@
 #define RLVC_TESTS_WORLD_H
 
 #include "rlvc/bits.h"
-#include "rlvc/descriptors.h"
+#include "rlvc/spatial.h"
 #include "rlvc/thresholds.h"
 
 #include <stdio.h>
@@ -50,12 +50,13 @@ static inline int own_name(void *ctx, const void *feature, char *text, uint32_t 
     return 0;
 }
 
-/* ------------------------------------------------------------------ all four */
+/* ------------------------------------------------------------------ all five */
 
 /* A domain of a kind (RLVC_DOMAIN_*), of which there are two variants. */
 static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
     static rlvc_thresholds thresholds;
     static rlvc_descriptors descriptors;
+    static rlvc_spatial spatial;
     rlvc_domain domain;
     memset(&domain, 0, sizeof domain);
     if (kind == RLVC_DOMAIN_BITS) {
@@ -72,6 +73,14 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
         descriptors.candidates = 8;
         descriptors.draws = 2;
         must(rlvc_descriptors_domain(&descriptors, &domain) == RLVC_OK);
+    } else if (kind == RLVC_DOMAIN_SPATIAL) {
+        must(rlvc_spatial_default(&spatial, 2, 2,
+                                  variant ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT, variant,
+                                  1.5f) == RLVC_OK);
+        spatial.vectors.candidates = 4;
+        spatial.vectors.draws = 2;
+        spatial.pairs = 4;
+        must(rlvc_spatial_domain(&spatial, &domain) == RLVC_OK);
     } else {
         domain.percept_bytes = 1;
         domain.feature_bytes = 1;
@@ -91,14 +100,16 @@ static inline void world_percept(const rlvc_domain *domain, uint32_t cell,
     must(domain->percept_bytes <= PERCEPT_MAX);
     if (domain->kind == RLVC_DOMAIN_THRESHOLDS) {
         memcpy(percept, place, sizeof place);
-    } else if (domain->kind == RLVC_DOMAIN_DESCRIPTORS) {
+    } else if (domain->kind == RLVC_DOMAIN_DESCRIPTORS || domain->kind == RLVC_DOMAIN_SPATIAL) {
         memcpy(percept, &points, sizeof points);
-        if (domain->percept_bytes > 8u) {
+        if (((const rlvc_descriptors *)domain->ctx)->form == RLVC_DESCRIPTORS_FLOAT) {
             memcpy(percept + 4, place, sizeof place);
         } else {
             percept[4] = (unsigned char)(cell % 4u * 2u);
             percept[5] = (unsigned char)(cell / 4u * 2u);
         }
+        if (domain->kind == RLVC_DOMAIN_SPATIAL) /* the second point's x, or a direction */
+            percept[domain->percept_bytes - 4u] = (unsigned char)(8u + cell);
     } else {
         percept[0] = (unsigned char)cell;
     }

@@ -47,6 +47,7 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DOMAIN_BITS 1u
 #define RLVC_DOMAIN_DESCRIPTORS 2u
 #define RLVC_DOMAIN_THRESHOLDS 3u
+#define RLVC_DOMAIN_SPATIAL 4u
 
 typedef struct rlvc_domain {
     void *ctx; /* passed to every callback */

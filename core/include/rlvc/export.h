@@ -22,14 +22,16 @@ typedef struct rlvc_export_info {
  * percept:
  *
  *     unsigned NAME_act(const unsigned char *percept);   of bits; includes nothing
- *     unsigned NAME_act(const void *percept);            of descriptors; includes <stdint.h>
+ *     unsigned NAME_act(const void *percept);            of descriptors, also
+ *                                                        in pairs; includes <stdint.h>
  *     unsigned NAME_act(const float *percept);           of thresholds; includes nothing
  *
  * The tree is made compact first, which changes no action. Of bits: where the tests look at few it
  * becomes a table of the action by those bits, which takes the same short time for every percept;
  * else a table of nodes. The header says which, and shows the tree in its comments.
  *
- * Of descriptors: a table of nodes, and the features' radii and vectors, each feature once. A
+ * Of descriptors: a table of nodes, and the features' radii and vectors, each feature once; of
+ * pairs also scales, displacements and second vectors, which are 0 of a feature of one vector. A
  * percept is the domain's record, aligned to 4, and its count must be at most P. The detector is
  * that of the domain bit for bit, if compiled with -ffp-contract=off as the library is.
  *

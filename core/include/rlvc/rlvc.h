@@ -15,6 +15,7 @@
 #include "rlvc/planner.h"
 #include "rlvc/policy.h"
 #include "rlvc/snapshot.h"
+#include "rlvc/spatial.h"
 #include "rlvc/status.h"
 #include "rlvc/thresholds.h"
 

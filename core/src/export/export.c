@@ -172,8 +172,11 @@ static void put_comment(exporter *e, const rlvc_domain *domain) {
     if (domain->kind == RLVC_DOMAIN_BITS)
         put_bits_comment(e);
     else if (domain->kind == RLVC_DOMAIN_DESCRIPTORS)
-        rlvc_export_descriptors_comment(&e->c, (const rlvc_descriptors *)domain->ctx);
-    else
+        rlvc_export_descriptors_comment(&e->c, (const rlvc_descriptors *)domain->ctx, NULL);
+    else if (domain->kind == RLVC_DOMAIN_SPATIAL) {
+        const rlvc_spatial *spatial = (const rlvc_spatial *)domain->ctx;
+        rlvc_export_descriptors_comment(&e->c, &spatial->vectors, spatial);
+    } else
         rlvc_export_thresholds_comment(&e->c, domain);
 }
 
@@ -182,7 +185,11 @@ static uint32_t put_policy(exporter *e, const rlvc_domain *domain) {
     if (domain->kind == RLVC_DOMAIN_BITS)
         return put_bits(e, domain->percept_bytes * 8u);
     if (domain->kind == RLVC_DOMAIN_DESCRIPTORS)
-        return rlvc_export_descriptors(&e->c, (const rlvc_descriptors *)domain->ctx);
+        return rlvc_export_descriptors(&e->c, (const rlvc_descriptors *)domain->ctx, NULL);
+    if (domain->kind == RLVC_DOMAIN_SPATIAL) {
+        const rlvc_spatial *spatial = (const rlvc_spatial *)domain->ctx;
+        return rlvc_export_descriptors(&e->c, &spatial->vectors, spatial);
+    }
     return rlvc_export_thresholds(&e->c);
 }
 
@@ -204,7 +211,7 @@ rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree,
                              rlvc_write write, void *ctx, rlvc_export_info *info) {
     if (!is_identifier(name))
         return RLVC_E_RANGE;
-    if (domain->kind < RLVC_DOMAIN_BITS || domain->kind > RLVC_DOMAIN_THRESHOLDS)
+    if (domain->kind < RLVC_DOMAIN_BITS || domain->kind > RLVC_DOMAIN_SPATIAL)
         return RLVC_E_CONFIG;
     rlvc_export_info unwanted;
     exporter e = {{{write, ctx, RLVC_OK}, tree, policy, name, actions, 0}, 0, {0}};

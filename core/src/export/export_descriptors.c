@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* A policy on descriptors as C: see rlvc/export.h.
+/* A policy on descriptors, or on pairs of them, as C: see rlvc/export.h.
  *
  * A feature is written once, however many nodes test it: it belongs to the first of them in
  * pre-order, and is numbered by the order of these. The detector that is written is the text of
- * domains/descriptors.c with the number of dimensions put in, so that the same numbers are added in
- * the same order. */
+ * domains/nearest.c with the number of dimensions put in, so that the same numbers are added in the
+ * same order. What is of pairs alone is in export_spatial.c. */
 #include "rlvc/float_rules.h"
 
 #include "export_descriptors.h"
+
+#include "export_spatial.h"
 
 #include <string.h>
 
 #define A_LINE 8u /* numbers of a vector */
 
-/* What the numbers of a vector are. */
-static const char *type_of(const rlvc_descriptors *d) {
+const char *rlvc_export_descriptors_type(const rlvc_descriptors *d) {
     return d->form == RLVC_DESCRIPTORS_INT8 ? "int8_t" : "float";
 }
 
@@ -40,14 +41,18 @@ static uint32_t feature_number(const rlvc_compact *c, uint32_t node, uint32_t di
     return number;
 }
 
-void rlvc_export_descriptors_comment(rlvc_compact *c, const rlvc_descriptors *d) {
+void rlvc_export_descriptors_comment(rlvc_compact *c, const rlvc_descriptors *d,
+                                     const rlvc_spatial *spatial) {
     uint32_t node = 0, distinct = 0;
     rlvc_compact_number(c, " * A percept is a uint32_t, the number of its vectors, at most ",
                         d->points);
     rlvc_compact_number(c, ", and these, of ", d->dimensions);
     rlvc_compact_string(c, " ");
-    rlvc_compact_string(c, type_of(d));
-    rlvc_compact_string(c, " each;\n * it lies at a multiple of 4. To be compiled with "
+    rlvc_compact_string(c, rlvc_export_descriptors_type(d));
+    rlvc_compact_string(c, " each;\n");
+    if (spatial != NULL)
+        rlvc_export_spatial_comment(c, spatial);
+    rlvc_compact_string(c, " * it lies at a multiple of 4. To be compiled with "
                            "-ffp-contract=off.\n *\n");
     do {
         rlvc_compact_line(c, node);
@@ -67,8 +72,7 @@ static void put_byte(rlvc_compact *c, int8_t number) {
     rlvc_compact_number(c, number < 0 ? "-" : "", (uint32_t)(number < 0 ? -number : number));
 }
 
-static void put_vector(rlvc_compact *c, const rlvc_descriptors *d, const void *feature) {
-    const unsigned char *vector = (const unsigned char *)feature + sizeof(float);
+static void put_vector(rlvc_compact *c, const rlvc_descriptors *d, const unsigned char *vector) {
     for (uint32_t k = 0; k < d->dimensions; k++) {
         rlvc_compact_string(c, k % A_LINE ? ", " : k ? ",\n     " : "");
         if (d->form == RLVC_DESCRIPTORS_INT8)
@@ -81,22 +85,51 @@ static void put_vector(rlvc_compact *c, const rlvc_descriptors *d, const void *f
     }
 }
 
-/* The features' radii, or else their vectors. */
-static void put_features(rlvc_compact *c, const rlvc_descriptors *d, int radii) {
+static void put_entry(rlvc_compact *c, const rlvc_descriptors *d, const unsigned char *feature,
+                      rlvc_export_column column) {
+    const uint32_t bytes = RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form);
+    float number[3];
+    if (column == RLVC_EXPORT_RADIUS) {
+        rlvc_compact_float(c, rlvc_descriptors_radius(feature));
+        return;
+    }
+    rlvc_compact_string(c, "{");
+    if (column == RLVC_EXPORT_PLACE) {
+        memcpy(number, feature + 4u, sizeof number);
+        for (uint32_t k = 0; k < 3u; k++) {
+            rlvc_compact_string(c, k ? ", " : "");
+            rlvc_compact_float(c, number[k]);
+        }
+    } else {
+        put_vector(c, d,
+                   feature + (column == RLVC_EXPORT_VECTOR  ? 4u
+                              : column == RLVC_EXPORT_FIRST ? 16u
+                                                            : 16u + bytes));
+    }
+    rlvc_compact_string(c, "}");
+}
+
+void rlvc_export_descriptors_column(rlvc_compact *c, const rlvc_descriptors *d,
+                                    rlvc_export_column column) {
     uint32_t node = 0;
     do {
         if (first_alike(c, node) == node) {
             rlvc_compact_string(c, node ? ",\n    " : "\n    ");
-            rlvc_compact_string(c, radii ? "" : "{");
-            if (radii)
-                rlvc_compact_float(c, rlvc_descriptors_radius(rlvc_compact_feature(c, node)));
-            else
-                put_vector(c, d, rlvc_compact_feature(c, node));
-            rlvc_compact_string(c, radii ? "" : "}");
+            put_entry(c, d, (const unsigned char *)rlvc_compact_feature(c, node), column);
         }
         node = rlvc_compact_next_mixed(c, node);
     } while (node != 0);
     rlvc_compact_string(c, "};\n\n");
+}
+
+void rlvc_export_descriptors_table(rlvc_compact *c, const rlvc_descriptors *d, const char *behind,
+                                   uint32_t features) {
+    rlvc_compact_string(c, "static const ");
+    rlvc_compact_string(c, rlvc_export_descriptors_type(d));
+    rlvc_compact_name(c, " ", behind);
+    rlvc_compact_number(c, "[", features);
+    rlvc_compact_number(c, "][", d->dimensions);
+    rlvc_compact_string(c, "] = {");
 }
 
 /* Returns how many features there are. */
@@ -117,18 +150,14 @@ static uint32_t put_nodes(rlvc_compact *c) {
     return distinct;
 }
 
-static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t features) {
+static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t features,
+                       rlvc_export_column vector) {
     rlvc_compact_name(c, "static const float ", "_radius");
     rlvc_compact_number(c, "[", features);
     rlvc_compact_string(c, "] = {");
-    put_features(c, d, 1);
-    rlvc_compact_string(c, "static const ");
-    rlvc_compact_string(c, type_of(d));
-    rlvc_compact_name(c, " ", "_vector");
-    rlvc_compact_number(c, "[", features);
-    rlvc_compact_number(c, "][", d->dimensions);
-    rlvc_compact_string(c, "] = {");
-    put_features(c, d, 0);
+    rlvc_export_descriptors_column(c, d, RLVC_EXPORT_RADIUS);
+    rlvc_export_descriptors_table(c, d, "_vector", features);
+    rlvc_export_descriptors_column(c, d, vector);
 }
 
 /* ------------------------------------------------------------------ functions */
@@ -139,9 +168,9 @@ static void put_between(rlvc_compact *c, const rlvc_descriptors *d) {
     const int bytes = d->form == RLVC_DESCRIPTORS_INT8;
     const char *number = bytes ? "int32_t" : "float";
     rlvc_compact_name(c, "static inline float ", "_between(const ");
-    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_string(c, rlvc_export_descriptors_type(d));
     rlvc_compact_string(c, " *a, const ");
-    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_string(c, rlvc_export_descriptors_type(d));
     rlvc_compact_string(c, " *b, float limit) {\n    ");
     rlvc_compact_string(c, bytes ? "int32_t sum = 0" : "float lane[8] = {0.0f}, sum = 0.0f");
     rlvc_compact_number(c, ";\n    uint32_t i, k;\n    for (i = 0; i < ", d->dimensions);
@@ -163,14 +192,14 @@ static void put_between(rlvc_compact *c, const rlvc_descriptors *d) {
 }
 
 /* Whether a percept exhibits a feature. */
-static void put_present(rlvc_compact *c, const rlvc_descriptors *d) {
+static void put_present(rlvc_compact *c, const rlvc_descriptors *d, const rlvc_spatial *spatial) {
     rlvc_compact_name(
         c, "static inline unsigned ",
         "_present(const void *percept, unsigned feature) {\n    const float radius = ");
     rlvc_compact_name(c, "", "_radius[feature], limit = radius * radius;\n    const ");
-    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_string(c, rlvc_export_descriptors_type(d));
     rlvc_compact_string(c, " *vector = (const ");
-    rlvc_compact_string(c, type_of(d));
+    rlvc_compact_string(c, rlvc_export_descriptors_type(d));
     rlvc_compact_string(c, " *)((const unsigned char *)percept + 4);\n"
                            "    uint32_t count, i;\n"
                            "    for (i = 0; i < 4u; i++)\n"
@@ -179,11 +208,10 @@ static void put_present(rlvc_compact *c, const rlvc_descriptors *d) {
     rlvc_compact_string(c, "    for (i = 0; radius >= 0.0f && i < count; i++)\n");
     rlvc_compact_name(c, "        if (", "_between(vector + i * ");
     rlvc_compact_number(c, "", d->dimensions);
-    rlvc_compact_name(c, "u, ",
-                      "_vector[feature], limit) <= limit)\n"
-                      "            return 1u;\n"
-                      "    return 0;\n"
-                      "}\n\n");
+    rlvc_compact_name(c, "u, ", "_vector[feature], limit) <= limit");
+    if (spatial != NULL)
+        rlvc_compact_name(c, " &&\n            ", "_completed(percept, feature, i, count, limit)");
+    rlvc_compact_string(c, ")\n            return 1u;\n    return 0;\n}\n\n");
 }
 
 static void put_act(rlvc_compact *c) {
@@ -197,17 +225,21 @@ static void put_act(rlvc_compact *c) {
     rlvc_compact_string(c, "u;\n}\n");
 }
 
-uint32_t rlvc_export_descriptors(rlvc_compact *c, const rlvc_descriptors *d) {
+uint32_t rlvc_export_descriptors(rlvc_compact *c, const rlvc_descriptors *d,
+                                 const rlvc_spatial *spatial) {
     if (c->mixed == 0) {
         rlvc_compact_constant(c, "const void *percept");
         return 0;
     }
     rlvc_compact_string(c, "#include <stdint.h>\n\n");
     const uint32_t features = put_nodes(c);
-    put_tables(c, d, features);
+    uint32_t bytes = c->mixed * (rlvc_compact_fits_bytes(c) ? 3u : 12u) +
+                     features * (4u + RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form));
+    put_tables(c, d, features, spatial != NULL ? RLVC_EXPORT_FIRST : RLVC_EXPORT_VECTOR);
     put_between(c, d);
-    put_present(c, d);
+    if (spatial != NULL)
+        bytes += rlvc_export_spatial(c, spatial, features);
+    put_present(c, d, spatial);
     put_act(c);
-    return c->mixed * (rlvc_compact_fits_bytes(c) ? 3u : 12u) +
-           features * (4u + RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form));
+    return bytes;
 }
