@@ -92,8 +92,8 @@ static void test_configs_refused(void **state) {
     REFUSE(sigma, INFINITY);
     REFUSE(sigma, 0.0f);
     rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
-    config.reserved = 1;
-    refuse_config(&config, "config.reserved");
+    config.places = 3;
+    refuse_config(&config, "config.places");
     config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
     config.axes = 9;
     refuse_config(&config, "config.axes");
@@ -135,6 +135,36 @@ static void test_record(void **state) {
             look_once(&config, NULL, &made.picture, &a);
             assert_true(config.points == 5 ? a.count == 5 : a.count > 20 && a.count < 200);
             check_percept(&config, &made.picture);
+        }
+    }
+    test_picture_free(&made);
+}
+
+/* Places and directions stand behind the vectors, which they leave alone. */
+static void test_places(void **state) {
+    (void)state;
+    test_picture made = test_picture_make(90, 90, RLVC_PICTURE_BGR, 1);
+    for (uint32_t d = 0; d < RLVC_DESCRIPTORS; d++) {
+        rlvc_vision_config config = config_of(d);
+        config.points = 9; /* so that directions end in zeros */
+        const uint32_t plain = rlvc_vision_percept_bytes(&config);
+        look_once(&config, NULL, &made.picture, &a);
+        for (config.places = RLVC_PLACES_POINTS; config.places <= RLVC_PLACES_DIRECTED;
+             config.places++) {
+            const uint32_t bytes = rlvc_vision_percept_bytes(&config);
+            assert_int_equal(bytes, plain + (config.places == RLVC_PLACES_POINTS ? 36u : 56u));
+            look_once(&config, NULL, &made.picture, &b);
+            assert_memory_equal(&a.count, &b.count, plain);
+            const unsigned char *at = (const unsigned char *)&b.count + plain;
+            for (uint32_t i = 0; i < b.count; i++) {
+                int16_t place[2];
+                memcpy(place, at + 4u * i, sizeof place);
+                assert_true((float)place[0] == b.points[i].x && (float)place[1] == b.points[i].y);
+                if (config.places == RLVC_PLACES_DIRECTED) {
+                    const int8_t *unit = (const int8_t *)at + 36u + 2u * i;
+                    assert_in_range(unit[0] * unit[0] + unit[1] * unit[1], 126 * 126, 128 * 128);
+                }
+            }
         }
     }
     test_picture_free(&made);
@@ -429,6 +459,7 @@ int main(void) {
         cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_configs_refused),
         cmocka_unit_test(test_record),
+        cmocka_unit_test(test_places),
         cmocka_unit_test(test_length_is_one),
         cmocka_unit_test(test_int8_loses_nothing_of_sift_and_orb),
         cmocka_unit_test(test_formats_agree),

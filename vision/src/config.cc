@@ -60,7 +60,7 @@ void check(const rlvc_vision_config &config) {
     check_count("form", config.form, RLVC_FORM_FLOAT, RLVC_FORM_INT8);
     check_count("normalise", config.normalise, 0, 1);
     check_count("axes", config.axes, 0, known[config.descriptor].dimensions);
-    check_count("reserved", config.reserved, 0, 0);
+    check_count("places", config.places, RLVC_PLACES_NONE, RLVC_PLACES_DIRECTED);
     check_scale("sd", config.sd, 0.5f, 4);
     check_scale("si", config.si, 0.5f, 8);
     check_share("k", config.k, 0.25f);
@@ -153,8 +153,10 @@ uint32_t rlvc_vision_dimensions(const rlvc_vision_config *config) {
 uint32_t rlvc_vision_percept_bytes(const rlvc_vision_config *config) {
     const uint32_t dimensions = rlvc_vision_dimensions(config);
     if (dimensions == 0 || config->points < 1 || config->points > RLVC_POINTS_MAX ||
-        config->form > RLVC_FORM_INT8)
+        config->form > RLVC_FORM_INT8 || config->places > RLVC_PLACES_DIRECTED)
         return 0;
-    return config->form == RLVC_FORM_FLOAT ? RLVC_PERCEPT_BYTES_FLOAT(config->points, dimensions)
-                                           : RLVC_PERCEPT_BYTES_INT8(config->points, dimensions);
+    const uint32_t places = RLVC_PERCEPT_BYTES_PLACES(config->points, config->places);
+    return places + (config->form == RLVC_FORM_FLOAT
+                         ? RLVC_PERCEPT_BYTES_FLOAT(config->points, dimensions)
+                         : RLVC_PERCEPT_BYTES_INT8(config->points, dimensions));
 }

@@ -42,6 +42,24 @@ void rlvc_extractor::quantise(const float *numbers, size_t count, int8_t *out) c
     }
 }
 
+// For all P points, so that directions have their place behind.
+void rlvc_extractor::put_places(unsigned char *out) const {
+    constexpr size_t place_bytes = 2 * sizeof(int16_t);
+    constexpr float unit = 127, radians = 0.017453293f;
+    int8_t *direction = reinterpret_cast<int8_t *>(out + config().points * place_bytes);
+    for (size_t i = 0; i < eye_.points().size(); i++) {
+        const int place[2] = {static_cast<int>(eye_.points()[i].x),
+                              static_cast<int>(eye_.points()[i].y)};
+        for (size_t k = 0; k < place_bytes; k++)
+            out[i * place_bytes + k] = static_cast<unsigned char>(place[k / 2] >> 8 * (k % 2));
+        if (config().places != RLVC_PLACES_DIRECTED)
+            continue;
+        const float angle = eye_.directions()[i] * radians;
+        direction[2 * i] = static_cast<int8_t>(std::nearbyint(unit * std::cos(angle)));
+        direction[2 * i + 1] = static_cast<int8_t>(std::nearbyint(unit * std::sin(angle)));
+    }
+}
+
 void rlvc_extractor::extract(const Picture &picture, void *percept, rlvc_point *points) {
     eye_.look(picture);
     const size_t n = eye_.dimensions();
@@ -65,6 +83,9 @@ void rlvc_extractor::extract(const Picture &picture, void *percept, rlvc_point *
                     record + head_bytes);
     else
         quantise(vectors, numbers, reinterpret_cast<int8_t *>(record + head_bytes));
+    if (config().places != RLVC_PLACES_NONE)
+        put_places(record + rlvc_vision_percept_bytes(&config()) -
+                   RLVC_PERCEPT_BYTES_PLACES(config().points, config().places));
     if (points != nullptr)
         std::copy(eye_.points().begin(), eye_.points().end(), points);
 }

@@ -24,6 +24,7 @@ struct rlvc_extractor {
 
   private:
     void quantise(const float *numbers, size_t count, int8_t *out) const;
+    void put_places(unsigned char *out) const;
 
     rlvc::Eye eye_;
     std::optional<rlvc_metric> metric_;

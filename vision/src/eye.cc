@@ -64,26 +64,31 @@ void Eye::look_at(const Picture &picture, const std::vector<rlvc_point> &points)
 void Eye::describe(const Picture &picture, const Light &light) {
     const bool coloured = config_.descriptor == RLVC_DESCRIPTOR_INVARIANTS ||
                           config_.descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS;
+    const bool directed = config_.descriptor == RLVC_DESCRIPTOR_SIFT ||
+                          config_.descriptor == RLVC_DESCRIPTOR_ORB ||
+                          config_.places == RLVC_PLACES_DIRECTED;
     vectors_.resize(points_.size() * dimensions_);
+    directions_.assign(points_.size(), 0);
+    if (coloured)
+        describe_by_jets(picture, light);
+    for (size_t i = 0; directed && i < points_.size(); i++)
+        directions_[i] = direction(
+            jet_.at(picture, static_cast<int>(points_[i].x), static_cast<int>(points_[i].y)));
+    if (!coloured && !points_.empty())
+        keypoints_.describe(picture, points_, directions_, vectors_.data());
+}
+
+void Eye::describe_by_jets(const Picture &picture, const Light &light) {
     float gain[3], offset[3];
     for (int c = 0; c < 3; c++) {
         const int from = picture.channels == 1 ? 0 : picture.blue_first ? 2 - c : c;
         gain[c] = light.gain[from];
         offset[c] = light.offset[from];
     }
-    std::vector<float> directions(coloured ? 0 : points_.size());
-    for (size_t i = 0; i < points_.size(); i++) {
-        const int x = static_cast<int>(points_[i].x);
-        const int y = static_cast<int>(points_[i].y);
-        if (coloured)
-            invariants(jet_.at(picture, x, y), gain, offset,
-                       config_.descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS,
-                       &vectors_[i * dimensions_]);
-        else if (config_.descriptor != RLVC_DESCRIPTOR_SIFT_UPRIGHT)
-            directions[i] = direction(jet_.at(picture, x, y));
-    }
-    if (!coloured && !points_.empty())
-        keypoints_.describe(picture, points_, directions, vectors_.data());
+    for (size_t i = 0; i < points_.size(); i++)
+        invariants(jet_.at(picture, static_cast<int>(points_[i].x), static_cast<int>(points_[i].y)),
+                   gain, offset, config_.descriptor == RLVC_DESCRIPTOR_SQRT_INVARIANTS,
+                   &vectors_[i * dimensions_]);
 }
 
 } // namespace rlvc

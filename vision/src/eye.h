@@ -35,9 +35,15 @@ class Eye {
     const std::vector<float> &vectors() const {
         return vectors_;
     }
+    // Of each point, in degrees in [0, 360], clockwise on the screen; 0 if neither the descriptor
+    // nor config().places asks for them.
+    const std::vector<float> &directions() const {
+        return directions_;
+    }
 
   private:
     void describe(const Picture &picture, const Light &light);
+    void describe_by_jets(const Picture &picture, const Light &light);
 
     rlvc_vision_config config_;
     uint32_t dimensions_;
@@ -46,6 +52,7 @@ class Eye {
     Keypoints keypoints_;
     std::vector<rlvc_point> points_;
     std::vector<float> vectors_;
+    std::vector<float> directions_;
 };
 
 } // namespace rlvc

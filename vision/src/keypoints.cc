@@ -33,7 +33,8 @@ void expect_all(size_t described, size_t points) {
 
 } // namespace
 
-Keypoints::Keypoints(const rlvc_vision_config &config) : size_(2 * config.sigma) {
+Keypoints::Keypoints(const rlvc_vision_config &config)
+    : size_(2 * config.sigma), upright_(config.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT) {
     if (config.descriptor == RLVC_DESCRIPTOR_ORB)
         orb_ = cv::ORB::create(static_cast<int>(config.points), 1.2f, 1, orb_edge);
     else if (config.descriptor == RLVC_DESCRIPTOR_SIFT ||
@@ -51,8 +52,8 @@ void Keypoints::describe(const Picture &picture, const std::vector<rlvc_point> &
     }
     keypoints_.clear();
     for (size_t i = 0; i < points.size(); i++)
-        keypoints_.emplace_back(points[i].x, points[i].y, size_, directions[i], points[i].response,
-                                0, static_cast<int>(i));
+        keypoints_.emplace_back(points[i].x, points[i].y, size_, upright_ ? 0 : directions[i],
+                                points[i].response, 0, static_cast<int>(i));
     if (sift_)
         describe_by_sift(grey, vectors);
     else

@@ -27,6 +27,7 @@ class Keypoints {
     void describe_by_orb(const cv::Mat &grey, float *vectors);
 
     float size_;
+    bool upright_; // directions are of no meaning
     cv::Ptr<cv::Feature2D> sift_;
     cv::Ptr<cv::Feature2D> orb_;
     std::vector<cv::KeyPoint> keypoints_;

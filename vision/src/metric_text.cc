@@ -75,6 +75,7 @@ json json_of(const rlvc_vision_config &config) {
             {"form", config.form},
             {"normalise", config.normalise},
             {"axes", config.axes},
+            {"places", config.places},
             {"sd", config.sd},
             {"si", config.si},
             {"k", config.k},
@@ -100,7 +101,8 @@ rlvc_vision_config config_of(const json &object) {
     config.form = byte(object, "form");
     config.normalise = byte(object, "normalise");
     config.axes = byte(object, "axes");
-    constexpr float any = 1e6f; // check() knows better
+    config.places = object.contains("places") ? byte(object, "places") : 0; // of an older version
+    constexpr float any = 1e6f;                                             // check() knows better
     config.sd = real(object, "sd", any);
     config.si = real(object, "si", any);
     config.k = real(object, "k", any);

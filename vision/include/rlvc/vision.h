@@ -83,6 +83,12 @@ typedef struct rlvc_vision_error {
 #define RLVC_FORM_FLOAT 0u /* binary32 */
 #define RLVC_FORM_INT8 1u  /* round(number / rlvc_extractor_step) in [-127, 127], saturating */
 
+/* config.places: what a percept says of where its vectors were found, for features of several
+ * points (rlvc/spatial.h). Values are pinned. */
+#define RLVC_PLACES_NONE 0u     /* nothing */
+#define RLVC_PLACES_POINTS 1u   /* the points */
+#define RLVC_PLACES_DIRECTED 2u /* and their directions, those of the smoothed grey gradient */
+
 #define RLVC_POINTS_MAX 1000u
 
 /* Chosen once, copied by whatever takes it. Start from rlvc_vision_config_default. */
@@ -97,19 +103,19 @@ typedef struct rlvc_vision_config {
                             deviation 64, which removes changes of light of the form a c + b, and
                             absolute colour with them; 0: not. SIFT and ORB take no notice of it but
                             in the choice of points. Default 0 */
-    uint8_t axes;     /* numbers of a vector in the percept: the first so many axes of a metric of
-                            the kind DISCRIMINANT, [1, D]; 0: all D. Default 0 */
-    uint8_t reserved; /* 0 */
-    float sd;         /* pixels: scale of the derivatives of the Harris response, [0.5, 4].
-                            Default 1 */
-    float si;         /* pixels: scale over which it integrates, [0.5, 8]. Default 2 */
-    float k;          /* H = det M - k (trace M)^2, [0, 0.25). Default 0.04 */
-    float threshold;  /* a point's response exceeds this share of the picture's largest, [0, 1).
-                            Default 0.001 */
-    float sigma;      /* pixels: scale of the vectors, [0.5, 8], for SIFT [1, 8]: that of the
-                            Gaussian derivatives, or SIFT's own (its window is 12 sigma wide); ORB's
-                            window is fixed, and only its direction is taken at this scale. Default
-                            2.5, SIFT 6, ORB 5 */
+    uint8_t axes;    /* numbers of a vector in the percept: the first so many axes of a metric of
+                        the kind DISCRIMINANT, [1, D]; 0: all D. Default 0 */
+    uint8_t places;  /* RLVC_PLACES_*. Default RLVC_PLACES_NONE */
+    float sd;        /* pixels: scale of the derivatives of the Harris response, [0.5, 4].
+                           Default 1 */
+    float si;        /* pixels: scale over which it integrates, [0.5, 8]. Default 2 */
+    float k;         /* H = det M - k (trace M)^2, [0, 0.25). Default 0.04 */
+    float threshold; /* a point's response exceeds this share of the picture's largest, [0, 1).
+                           Default 0.001 */
+    float sigma;     /* pixels: scale of the vectors, [0.5, 8], for SIFT [1, 8]: that of the
+                           Gaussian derivatives, or SIFT's own (its window is 12 sigma wide); ORB's
+                           window is fixed, and only its direction is taken at this scale. Default
+                           2.5, SIFT 6, ORB 5 */
 } rlvc_vision_config;
 
 /* Fills *config with the defaults for a descriptor. O(1).
@@ -140,10 +146,13 @@ RLVC_API uint32_t rlvc_descriptor_dimensions(uint32_t descriptor);
 /* ------------------------------------------------------------------------------------ percept */
 
 /* The record that the core keeps, in the machine's own byte order; its size is fixed by P, D (or
- * config.axes in its place) and the form, and is a multiple of 4:
+ * config.axes in its place), the form and the places, and is a multiple of 4:
  *
  *     float form    uint32_t count; float  vector[P][D];
  *     int8 form     uint32_t count; int8_t vector[P][D]; zeros up to a multiple of 4
+ *     points        then int16_t x, y of each of the P, in pixels, low byte first
+ *     directed      then int8_t c, s of each of the P: 127 cos and 127 sin of its direction,
+ * clockwise on the screen; zeros up to a multiple of 4
  *
  * The count points of the picture, count in [0, P], stand strongest first, and all behind them is
  * 0, so that equal percepts are equal bytes. A picture may have no point at all: count is 0, and
@@ -152,9 +161,13 @@ RLVC_API uint32_t rlvc_descriptor_dimensions(uint32_t descriptor);
     (4u + 4u * (uint32_t)(points) * (uint32_t)(dimensions))
 #define RLVC_PERCEPT_BYTES_INT8(points, dimensions)                                                \
     (4u + ((uint32_t)(points) * (uint32_t)(dimensions) + 3u) / 4u * 4u)
+#define RLVC_PERCEPT_BYTES_PLACES(points, places)                                                  \
+    ((places) == RLVC_PLACES_NONE     ? 0u                                                         \
+     : (places) == RLVC_PLACES_POINTS ? 4u * (uint32_t)(points)                                    \
+                                      : (6u * (uint32_t)(points) + 3u) / 4u * 4u)
 
-/* The same for a config; 0 if its descriptor, points or form is out of range. At most 2^20, which
- * is the core's limit. O(1). */
+/* The same for a config; 0 if its descriptor, points, form or places are out of range. At most
+ * 2^20, which is the core's limit. O(1). */
 RLVC_API uint32_t rlvc_vision_percept_bytes(const rlvc_vision_config *config);
 
 /* Where a vector of a percept was found. Only people need this: the core does not. */
