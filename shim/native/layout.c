@@ -18,6 +18,7 @@
 #include "rlvc/policy.h"
 #include "rlvc/rlvc.h"
 #include "rlvc/snapshot.h"
+#include "rlvc/spatial.h"
 #include "rlvc/status.h"
 #include "rlvc/thresholds.h"
 #include "rlvc/vision.h"
@@ -258,6 +259,11 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_planner_statistics, acting)},
     {FIELD(rlvc_planner_statistics, verdict)},
     {FIELD(rlvc_planner_statistics, reserved)},
+    {SIZE(rlvc_spatial)},
+    {FIELD(rlvc_spatial, vectors)},
+    {FIELD(rlvc_spatial, pairs)},
+    {FIELD(rlvc_spatial, directed)},
+    {FIELD(rlvc_spatial, reserved)},
     {SIZE(rlvc_thresholds)},
     {FIELD(rlvc_thresholds, components)},
     {FIELD(rlvc_thresholds, cutpoints)},
@@ -372,7 +378,7 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_vision_config, form)},
     {FIELD(rlvc_vision_config, normalise)},
     {FIELD(rlvc_vision_config, axes)},
-    {FIELD(rlvc_vision_config, reserved)},
+    {FIELD(rlvc_vision_config, places)},
     {FIELD(rlvc_vision_config, sd)},
     {FIELD(rlvc_vision_config, si)},
     {FIELD(rlvc_vision_config, k)},

@@ -48,6 +48,7 @@ from .agent.results import (
 from .domains.bits import Bits
 from .domains.descriptors import Descriptors
 from .domains.domain import Domain
+from .domains.spatial import Spatial
 from .domains.thresholds import Thresholds
 from .errors import Error
 from .learning import encode
@@ -85,6 +86,7 @@ __all__ = [
     "Progress",
     "Record",
     "Run",
+    "Spatial",
     "Split",
     "Statistics",
     "Thresholds",

@@ -84,14 +84,13 @@ def _seen(run: Any, env: Any) -> dict[str, Any]:
                 "classes": sorted({answer.class_id for answer in answers}),
                 "action": ACTIONS[actions.pop()] if len(actions) == 1 else None,
             })  # fmt: skip
-    nowhere = dict.fromkeys(("object", "angle", "x", "y"))
     tests = [
         {
             "name": split.name,
             "class": split.class_id,
             "step": split.step,
             "radius": float(split.feature["radius"]),
-            **places.get(split.feature["vector"].tobytes(), nowhere),
+            **_places_of(split.feature, places),
         }
         for split in run.agent.splits
     ]
@@ -108,6 +107,16 @@ def _seen(run: Any, env: Any) -> dict[str, Any]:
         "objects": listed,
         "tests": tests,
     }
+
+
+def _places_of(feature: Any, places: dict[bytes, dict[str, Any]]) -> dict[str, Any]:
+    """Where the vectors of a feature come from."""
+    nowhere = dict.fromkeys(("object", "angle", "x", "y"))
+    second = None
+    if "scale" in feature.dtype.names and feature["scale"] > 0:
+        found = places.get(feature["second"].tobytes())
+        second = found and {"x": found["x"], "y": found["y"]}
+    return {**places.get(feature["vector"].tobytes(), nowhere), "second": second}
 
 
 def _tree_members(learner: Any) -> dict[str, Any]:

@@ -152,6 +152,16 @@ def test_what_is_shown(learnt):
 
 
 @sees
+def test_a_pair_is_two_circles_and_a_line(learnt):
+    env, _, run = learnt
+    made = report.make(run, env)
+    made["tests"][0]["second"] = {"x": made["tests"][0]["x"], "y": made["tests"][0]["y"] + 40.0}
+    figure = plot.features(made)
+    assert sum(len(axes.lines) for axes in figure.axes) == 2
+    assert shown(figure)[1] == 2 * run.agent.classes
+
+
+@sees
 def test_pictures_that_were_given(learnt):
     env, eye, _ = learnt
     other = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, env.objects.pictures)

@@ -30,6 +30,7 @@ DOMAIN_OWN = 0
 DOMAIN_BITS = 1
 DOMAIN_DESCRIPTORS = 2
 DOMAIN_THRESHOLDS = 3
+DOMAIN_SPATIAL = 4
 NAME_BYTES = 64
 ALIGNMENT = 8
 REWARD_MAX = 1000000000000.0
@@ -133,6 +134,9 @@ DIMENSIONS_ORB = 256
 DIMENSIONS_MAX = 256
 FORM_FLOAT = 0
 FORM_INT8 = 1
+PLACES_NONE = 0
+PLACES_POINTS = 1
+PLACES_DIRECTED = 2
 POINTS_MAX = 1000
 PICTURE_GREY = 0
 PICTURE_BGR = 1
@@ -460,6 +464,15 @@ class PlannerStatistics(c.Structure):
     ]
 
 
+class Spatial(c.Structure):
+    """``rlvc_spatial``."""
+
+    _fields_ = [
+        ("vectors", Descriptors), ("pairs", c.c_uint32), ("directed", c.c_uint8),
+        ("reserved", c.c_uint8 * 3),
+    ]
+
+
 class Thresholds(c.Structure):
     """``rlvc_thresholds``."""
 
@@ -595,7 +608,7 @@ class VisionConfig(c.Structure):
     _fields_ = [
         ("descriptor", c.c_uint32), ("points", c.c_uint32), ("radius", c.c_uint32),
         ("form", c.c_uint8), ("normalise", c.c_uint8), ("axes", c.c_uint8),
-        ("reserved", c.c_uint8), ("sd", c.c_float), ("si", c.c_float), ("k", c.c_float),
+        ("places", c.c_uint8), ("sd", c.c_float), ("si", c.c_float), ("k", c.c_float),
         ("threshold", c.c_float), ("sigma", c.c_float),
     ]
 
@@ -645,6 +658,7 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_planner_config": PlannerConfig,
     "rlvc_planner_test": PlannerTest,
     "rlvc_planner_statistics": PlannerStatistics,
+    "rlvc_spatial": Spatial,
     "rlvc_thresholds": Thresholds,
     "rlvc_threshold": Threshold,
     "gridworld_maze": GridworldMaze,
@@ -748,6 +762,12 @@ CORE: Functions = {
     "rlvc_planner_save": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_load": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
     "rlvc_planner_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_spatial_default": (c.c_int, [
+        c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.c_float,
+    ]),
+    "rlvc_spatial_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_spatial_is_pair": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_spatial_nearest": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_default": (c.c_int, [c.c_void_p, c.c_uint32]),
     "rlvc_thresholds_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_check": (c.c_int, [c.c_void_p, c.c_void_p]),

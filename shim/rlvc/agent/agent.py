@@ -547,8 +547,8 @@ class Agent(Queries):
         ----------
         file : str or Path
         domain : Domain or None
-            The domain of the agent. None if that is :class:`Bits`, :class:`Descriptors` or
-            :class:`Thresholds`, which are in the file.
+            The domain of the agent. None if that is :class:`Bits`, :class:`Descriptors`,
+            :class:`Spatial` or :class:`Thresholds`, which are in the file.
 
         Returns
         -------

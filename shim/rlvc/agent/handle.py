@@ -18,6 +18,7 @@ from ..domains.bits import Bits
 from ..domains.callbacks import Guard
 from ..domains.descriptors import Descriptors
 from ..domains.domain import Domain, checked_pack, checked_pack_many
+from ..domains.spatial import Spatial
 from ..domains.thresholds import Thresholds
 from ..errors import (
     BlockError,
@@ -116,7 +117,7 @@ class Handle:
         self._pack: Callable[[Any], bytes] = domain.pack
         self._pack_many: Callable[[Any], npt.NDArray[Any]] = domain.pack_many
         self._native_domain = domain.native(self._guard)
-        if type(domain) not in (Bits, Descriptors, Thresholds):
+        if type(domain) not in (Bits, Descriptors, Spatial, Thresholds):
             percept_bytes = int(self._native_domain.percept_bytes)
             self._pack = checked_pack(domain.pack, percept_bytes)
             self._pack_many = checked_pack_many(domain.pack_many, percept_bytes)
@@ -217,7 +218,8 @@ class Handle:
         RangeError
             ``name`` is not such an identifier.
         ConfigError
-            The domain is not one of :class:`Bits`, :class:`Descriptors` and :class:`Thresholds`.
+            The domain is not one of :class:`Bits`, :class:`Descriptors`, :class:`Spatial` and
+            :class:`Thresholds`.
 
         Notes
         -----

@@ -2,7 +2,7 @@
 """Snapshots in memory and in files.
 
 The file of an agent is a line ``rlvc agent 2``, a line of JSON, the library's snapshot, and the
-CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``, ``descriptors`` and
+CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``, ``descriptors``, ``spatial`` and
 ``thresholds``, one of which holds the parameters of the domain (all are null for a user-defined
 domain), ``names``, ``config``, and ``bytes``, the size of the snapshot. Version 1, which has no
 CRC-32, can be read too.
@@ -25,6 +25,7 @@ from .. import _native
 from ..domains.bits import Bits
 from ..domains.descriptors import Descriptors
 from ..domains.domain import Domain
+from ..domains.spatial import Spatial
 from ..domains.thresholds import Thresholds
 from ..errors import ConfigError, SnapshotError, StoreError
 from ..files import read, replace, tidy
@@ -165,7 +166,8 @@ def described(domain: Domain) -> dict[str, Any]:
     """Return the members of a header that say of which domain percepts are."""
     return {
         "bits": domain.bits if isinstance(domain, Bits) else None,
-        "descriptors": domain.parameters if isinstance(domain, Descriptors) else None,
+        "descriptors": domain.parameters if type(domain) is Descriptors else None,
+        "spatial": domain.parameters if isinstance(domain, Spatial) else None,
         "thresholds": domain.parameters if isinstance(domain, Thresholds) else None,
     }
 
@@ -176,6 +178,8 @@ def domain_of(head: dict[str, Any]) -> Domain | None:
         return Bits(head["bits"])
     if head.get("descriptors") is not None:
         return Descriptors(*head["descriptors"])
+    if head.get("spatial") is not None:
+        return Spatial(*head["spatial"])
     if head.get("thresholds") is not None:
         return Thresholds(*head["thresholds"])
     return None

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import sys
 from typing import Any, Literal
 
@@ -72,38 +73,50 @@ class Descriptors(BuiltinDomain):
         if form not in ("float", "int8"):
             raise ConfigError(f"form: {form!r} is not one of float, int8")
         self._build(
-            _native.Descriptors(
-                points, dimensions, candidates, draws, radius, margin, int(form == "int8")
+            self._native_parameters(
+                _native.Descriptors(
+                    points, dimensions, candidates, draws, radius, margin, int(form == "int8")
+                )
             )
         )
         self.vector_dtype = np.dtype(np.int8 if form == "int8" else np.float32)
         self.points, self.dimensions = points, dimensions
-        vector = (self.vector_dtype, (dimensions,))
-        padding = self._domain.feature_bytes - 4 - self.vector_dtype.itemsize * dimensions
-        feature = [("radius", np.float32), ("vector", *vector), ("padding", np.uint8, (padding,))]
         super().__init__(
-            np.uint8, (self._domain.percept_bytes,), feature, self._domain.features_max
+            np.uint8, (self._domain.percept_bytes,), self._fields(), self._domain.features_max
         )
+
+    def _native_parameters(self, vectors: _native.Descriptors) -> ctypes.Structure:
+        """Return the parameters of the C domain."""
+        return vectors
+
+    def _fields(self) -> list[Any]:
+        """Return the fields of a feature's record."""
+        size = self.vector_dtype.itemsize * self.dimensions
+        padding = ("padding", np.uint8, (-size % 4,))
+        return [("radius", np.float32), ("vector", self.vector_dtype, (self.dimensions,)), padding]
 
     def pack(self, percept: Percept) -> bytes:
         """Like :meth:`Domain.pack`, and also accepts the vectors [n, dimensions]."""
         if isinstance(percept, np.ndarray) and percept.ndim == 2:
-            if percept.dtype != self.vector_dtype or percept.shape[1] != self.dimensions:
-                raise PerceptError(
-                    f"a percept is {percept.dtype}{list(percept.shape)}, expected "
-                    f"{self.vector_dtype}[n, {self.dimensions}]"
-                )
-            if len(percept) > self.points:
-                raise PerceptError(
-                    f"a percept has {len(percept)} vectors, more than {self.points} vectors"
-                )
-            if not np.isfinite(percept).all():
-                raise PerceptError("a percept has an element that is not finite")
-            record = len(percept).to_bytes(4, sys.byteorder) + percept.tobytes()
-            return record.ljust(self.percept_bytes, b"\0")
+            return self._head(percept).ljust(self.percept_bytes, b"\0")
         record = super().pack(percept)
         self.check_many(np.frombuffer(record, np.uint8)[None])
         return record
+
+    def _head(self, percept: npt.NDArray[Any]) -> bytes:
+        """Return the number of vectors and the vectors as bytes."""
+        if percept.dtype != self.vector_dtype or percept.shape[1] != self.dimensions:
+            raise PerceptError(
+                f"a percept is {percept.dtype}{list(percept.shape)}, expected "
+                f"{self.vector_dtype}[n, {self.dimensions}]"
+            )
+        if len(percept) > self.points:
+            raise PerceptError(
+                f"a percept has {len(percept)} vectors, more than {self.points} vectors"
+            )
+        if not np.isfinite(percept).all():
+            raise PerceptError("a percept has an element that is not finite")
+        return len(percept).to_bytes(4, sys.byteorder) + percept.tobytes()
 
     def pack_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Like :meth:`Domain.pack_many`, for packed percepts; also checks their numbers of vectors."""

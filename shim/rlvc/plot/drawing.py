@@ -12,6 +12,7 @@ import matplotlib as mpl
 import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
 from .. import files
@@ -77,6 +78,19 @@ def circle(axes: Any, x: float, y: float, radius: float, width: float) -> None:
     """Draw a circle that is visible on light and on dark."""
     for colour, line in ((PAPER, 2.2 * width), (ORANGE, width)):
         axes.add_patch(Circle((x, y), radius, fill=False, color=colour, linewidth=line, zorder=4))
+
+
+def connect(axes: Any, points: list[tuple[float, float]], radius: float, width: float) -> None:
+    """Draw a line between two circles, if there are two: from rim to rim, visible on any ground."""
+    if len(points) < 2:
+        return
+    (x, y), (u, v) = points
+    length = max(float(np.hypot(u - x, v - y)), 1e-9)
+    along, across = radius * (u - x) / length, radius * (v - y) / length
+    if length > 2 * radius:
+        for colour, line in ((PAPER, 2.2 * width), (ORANGE, width)):
+            xs, ys = (x + along, u - along), (y + across, v - across)
+            axes.add_line(Line2D(xs, ys, color=colour, linewidth=line, zorder=4))
 
 
 def show(axes: Any, picture: npt.NDArray[np.uint8], x: float, y: float, side: float) -> float:

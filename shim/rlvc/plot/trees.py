@@ -18,6 +18,7 @@ from .drawing import (
     Source,
     check_name,
     circle,
+    connect,
     explained,
     need,
     pictures_of,
@@ -156,7 +157,7 @@ class _Drawing:
         return self.members.get(node["class"], [])[:6]
 
     def test(self, place: _Place) -> None:
-        """Draw a test: the picture with its point circled, and the arrows to its children."""
+        """Draw a test: the picture with its points circled, and the arrows to its children."""
         x, y, side = self.left(place), self.top(place), self.side
         test = self.tests[place.node["test"]]
         if test["object"] is None:
@@ -164,8 +165,11 @@ class _Drawing:
         else:
             picture = self.objects.view(test["object"], test["angle"])
             scale = show(self.axes, picture, x, y, side)
-            place_of = (x + scale * (test["x"] + 0.5), y + scale * (test["y"] + 0.5))
-            circle(self.axes, *place_of, 0.11 * side, 1.8)
+            points = [test] if test.get("second") is None else [test, test["second"]]
+            at = [(x + scale * (p["x"] + 0.5), y + scale * (p["y"] + 0.5)) for p in points]
+            connect(self.axes, at, 0.11 * side, 1.8)
+            for place_of in at:
+                circle(self.axes, *place_of, 0.11 * side, 1.8)
         middle = y + side / 2
         self.arrow((x + side, middle), (x + self.across, middle), "-")
         self.axes.text(x + side + 0.12, middle - 0.04, "yes", fontsize=8, va="bottom")
@@ -196,6 +200,8 @@ def features(
     source: Source, file: str | Path | None = None, objects: Objects | None = None
 ) -> Figure:
     """Draw the tree of an agent on pictures: each test is a picture with its point circled (figure 5).
+
+    A pair is two circles and a line.
 
     Pictures without the feature go down, those with it go right. Beside each class are up to six of
     its objects. Needs ``tree``, ``tests``, ``cell`` and ``objects``.

@@ -19,6 +19,7 @@ DESCRIPTORS = ("invariants", "sqrt-invariants", "sift-upright", "sift", "orb")
 """The descriptors."""
 
 FORMS = ("float", "int8")
+PLACES = ("none", "points", "directed")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,6 +43,9 @@ class VisionConfig:
     axes : int
         Length of the vectors in the percept: the first axes of a ``discriminant`` metric, [0, 255];
         0: all elements.
+    places : {"none", "points", "directed"}
+        What the percept has besides the vectors, for features of several points
+        (:class:`rlvc.Spatial`). points: their places. directed: also their directions.
     sd, si : float
         In pixels: the scale of the derivatives in the Harris response, [0.5, 4], and the scale of
         its integration, [0.5, 8].
@@ -64,6 +68,7 @@ class VisionConfig:
     form: str = "float"
     normalise: bool = False
     axes: int = 0
+    places: str = "none"
     sd: float = 1.0
     si: float = 2.0
     k: float = 0.04
@@ -78,7 +83,11 @@ class VisionConfig:
 
     def native(self) -> _native.VisionConfig:
         """Make the C struct."""
-        for name, values in (("descriptor", DESCRIPTORS), ("form", FORMS)):
+        for name, values in (
+            ("descriptor", DESCRIPTORS),
+            ("form", FORMS),
+            ("places", PLACES),
+        ):
             if getattr(self, name) not in values:
                 raise ConfigError(
                     f"{name}: {getattr(self, name)!r} is not one of {', '.join(values)}"
@@ -86,6 +95,7 @@ class VisionConfig:
         native = _native.VisionConfig()
         library.rlvc_vision_config_default(DESCRIPTORS.index(self.descriptor), ctypes.byref(native))
         native.form = FORMS.index(self.form)
+        native.places = PLACES.index(self.places)
         for name in (
             "points",
             "radius",
@@ -117,6 +127,7 @@ class VisionConfig:
             fields[name] = float(str(np.float32(fields[name])))  # 0.04, not 0.03999999910593033
         fields["descriptor"] = DESCRIPTORS[native.descriptor]
         fields["form"] = FORMS[native.form]
+        fields["places"] = PLACES[native.places]
         fields["normalise"] = bool(native.normalise)
         return cls(**fields)
 

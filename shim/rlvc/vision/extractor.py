@@ -11,9 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..domains.descriptors import Descriptors
-from ..errors import (
-    MetricError,
-)
+from ..domains.spatial import Spatial
+from ..errors import ConfigError, MetricError
 from .config import VisionConfig, config_of
 from .library import Order, Owned, Picture, call, library, native_picture
 from .metric import Metric
@@ -157,19 +156,25 @@ class Extractor(Owned):
         numbers = np.frombuffer(record, dtype, count * self.dimensions, 4)
         return Sight(record, numbers.reshape(count, self.dimensions), points[:count])
 
-    def domain(self, radius: float | None = None, **parameters: Any) -> Descriptors:
+    def domain(
+        self, radius: float | None = None, pairs: bool | int | None = None, **parameters: Any
+    ) -> Descriptors:
         """Return the domain of the percepts.
 
         Parameters
         ----------
         radius : float or None
             In units of the elements in the percept. None: the metric's tau.
+        pairs : bool, int or None
+            Whether pairs of points are features, too, and how many are candidates for one class
+            (True: 64). None: if the config has ``places``. If it has none, only what :meth:`look`
+            returns is a percept of the domain.
         **parameters
             ``candidates``, ``draws`` and ``margin`` of :class:`rlvc.Descriptors`.
 
         Returns
         -------
-        Descriptors
+        Descriptors or Spatial
 
         Raises
         ------
@@ -183,4 +188,14 @@ class Extractor(Owned):
                 raise MetricError("radius: pass one, or make the extractor with a metric")
             radius = self.metric.tau / self.step
         form: Any = self.config.form
-        return Descriptors(self.config.points, self.dimensions, radius, form, **parameters)
+        places = self.config.places
+        if pairs is None:
+            pairs = places != "none"
+        if pairs is False:
+            if places != "none":
+                raise ConfigError("pairs: percepts with places have pairs; make it with places none")
+            return Descriptors(self.config.points, self.dimensions, radius, form, **parameters)
+        if pairs is not True:
+            parameters["pairs"] = pairs
+        parameters["directed"] = places == "directed"
+        return Spatial(self.config.points, self.dimensions, radius, form, **parameters)

@@ -22,12 +22,13 @@ class Eye:
     cache : int
         Number of pictures whose percepts are cached, as environments often repeat pictures.
     **parameters
-        ``radius``, ``candidates``, ``draws`` and ``margin``, as for :meth:`Extractor.domain`.
+        ``radius``, ``pairs``, ``candidates``, ``draws`` and ``margin``, as for
+        :meth:`Extractor.domain`. With pairs the extractor's config must have ``places``.
 
     Attributes
     ----------
     extractor : Extractor
-    domain : Descriptors
+    domain : Descriptors or Spatial
     """
 
     def __init__(
