@@ -123,6 +123,16 @@ def test_axes_and_snapshot(tmp_path):
     assert report(tmp_path, *arguments, "--axes", 0)["features"]["dimensions"] == 128
 
 
+@pytest.mark.parametrize("descriptor", ["sift-upright", "sift"])
+def test_pairs(tmp_path, descriptor):
+    made = report(tmp_path, "--maze", "small", "--interactions", 800, "--pairs",
+                  "--descriptor", descriptor)
+    assert made["optimal_seen"] == 1.0
+    assert made["options"]["pairs"] is True
+    for test in made["runs"][0]["tests"]:
+        assert test["name"].startswith("vector " if test["second"] is None else "pair ")
+
+
 def test_same_seed_same_run(tmp_path):
     arguments = ("--maze", "small", "--noise", 3, "--copies", 2, "--interactions", 500)
     one, other = (report(tmp_path, *arguments) for _ in range(2))

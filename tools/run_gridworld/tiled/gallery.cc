@@ -50,6 +50,12 @@ rlvc_vision_config make_config(const TiledOptions &options) {
     config.axes = static_cast<uint8_t>(
         kind_of_metric(options) == RLVC_METRIC_DISCRIMINANT ? options.axes : 0);
     config.form = is_invariants(options.descriptor) ? RLVC_FORM_FLOAT : RLVC_FORM_INT8;
+    // Displacements turn with the picture where vectors do.
+    const bool turns =
+        options.descriptor == RLVC_DESCRIPTOR_SIFT || options.descriptor == RLVC_DESCRIPTOR_ORB;
+    config.places = !options.pairs ? RLVC_PLACES_NONE
+                    : turns        ? RLVC_PLACES_DIRECTED
+                                   : RLVC_PLACES_POINTS;
     return config;
 }
 
@@ -114,13 +120,14 @@ void Gallery::prepare(const TiledOptions &options) {
     extractor_.reset(extractor);
     tau_ = rlvc_metric_tau(metric_.get());
     const float radius = tau_ / rlvc_extractor_step(extractor);
-    check(rlvc_descriptors_default(&descriptors_, config_.points, rlvc_vision_dimensions(&config_),
-                                   config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8
-                                                                  : RLVC_DESCRIPTORS_FLOAT,
-                                   radius),
-          "rlvc_descriptors_default");
-    descriptors_.margin = options.margin;
-    descriptors_.candidates = options.candidates;
+    check(rlvc_spatial_default(&spatial_, config_.points, rlvc_vision_dimensions(&config_),
+                               config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8
+                                                              : RLVC_DESCRIPTORS_FLOAT,
+                               config_.places == RLVC_PLACES_DIRECTED, radius),
+          "rlvc_spatial_default");
+    spatial_.vectors.margin = options.margin;
+    spatial_.vectors.candidates = options.candidates;
+    spatial_.pairs = options.candidates;
 }
 
 Sight Gallery::look(uint32_t object, int angle, const cv::Mat &picture) {
@@ -137,7 +144,7 @@ Sight Gallery::look(uint32_t object, int angle, const cv::Mat &picture) {
 
 void Gallery::index(const Sight &sight) {
     const std::size_t bytes =
-        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors_.dimensions, descriptors_.form);
+        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors().dimensions, descriptors().form);
     const char *vector = reinterpret_cast<const char *>(sight.percept.data() + 1);
     for (const rlvc_point &point : sight.points) {
         places_.insert({std::string(vector, bytes), {sight.object, sight.angle, point}});
@@ -182,13 +189,34 @@ void Gallery::extract(const TiledOptions &options,
 
 rlvc_domain Gallery::domain() {
     rlvc_domain domain;
-    check(rlvc_descriptors_domain(&descriptors_, &domain), "rlvc_descriptors_domain");
+    if (spatial()) {
+        check(rlvc_spatial_domain(&spatial_, &domain), "rlvc_spatial_domain");
+    } else {
+        check(rlvc_descriptors_domain(&spatial_.vectors, &domain), "rlvc_descriptors_domain");
+    }
     return domain;
 }
 
-const Place *Gallery::find(const void *feature) const {
+const Place *Gallery::find_vector(const void *vector) const {
     const std::size_t bytes =
-        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors_.dimensions, descriptors_.form);
-    const auto found = places_.find(std::string(static_cast<const char *>(feature) + 4, bytes));
+        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors().dimensions, descriptors().form);
+    const auto found = places_.find(std::string(static_cast<const char *>(vector), bytes));
     return found == places_.end() ? nullptr : &found->second;
+}
+
+// Where a feature's first vector lies in its record.
+const char *Gallery::first_vector(const void *feature) const {
+    return static_cast<const char *>(feature) + (spatial() ? 16 : 4);
+}
+
+const Place *Gallery::find(const void *feature) const {
+    return find_vector(first_vector(feature));
+}
+
+const Place *Gallery::find_second(const void *feature) const {
+    if (!spatial() || !rlvc_spatial_is_pair(&spatial_, feature)) {
+        return nullptr;
+    }
+    return find_vector(first_vector(feature) +
+                       RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors().dimensions, descriptors().form));
 }

@@ -5,7 +5,7 @@
 
 #include "pictures.h"
 
-#include "rlvc/descriptors.h"
+#include "rlvc/spatial.h"
 #include "rlvc/vision.h"
 
 #include <functional>
@@ -45,7 +45,11 @@ class Gallery {
     }
 
     const rlvc_descriptors &descriptors() const {
-        return descriptors_;
+        return spatial_.vectors;
+    }
+    // The domain of pairs, if there are any, else null.
+    const rlvc_spatial *spatial() const {
+        return config_.places == RLVC_PLACES_NONE ? nullptr : &spatial_;
     }
 
     // The domain of these percepts; it points into the gallery.
@@ -53,6 +57,8 @@ class Gallery {
 
     // Where the vector of a feature comes from; null if from no picture to learn from.
     const Place *find(const void *feature) const;
+    // Likewise the second vector of a pair; null also if the feature is none.
+    const Place *find_second(const void *feature) const;
 
     double tau() const {
         return double{tau_};
@@ -67,13 +73,15 @@ class Gallery {
                  const std::function<void(const std::string &)> &progress);
     Sight look(uint32_t object, int angle, const cv::Mat &picture);
     void index(const Sight &sight);
+    const char *first_vector(const void *feature) const;
+    const Place *find_vector(const void *vector) const;
 
     std::vector<Object> objects_;
     std::vector<std::vector<Sight>> seen_, held_out_;
     rlvc_vision_config config_{};
     std::unique_ptr<rlvc_metric, void (*)(rlvc_metric *)> metric_;
     std::unique_ptr<rlvc_extractor, void (*)(rlvc_extractor *)> extractor_;
-    rlvc_descriptors descriptors_{};
+    rlvc_spatial spatial_{};
     std::map<std::string, Place> places_; // by the bytes of the vector
     float tau_ = 0.0f;
     double milliseconds_ = 0.0;

@@ -172,6 +172,7 @@ void Run::list_tests() {
         test.radius = rlvc_descriptors_radius(feature.data());
         test.name = name;
         test.place = gallery_.find(feature.data());
+        test.second = gallery_.find_second(feature.data());
         result_.tests.push_back(test);
     }
 }

@@ -12,7 +12,8 @@ struct Test {
     uint32_t split_class = 0, step = 0;
     float radius = 0.0f; // in units of the percept
     std::string name;
-    const Place *place = nullptr; // in the gallery
+    const Place *place = nullptr;  // in the gallery;
+    const Place *second = nullptr; // of a pair, of its second point
 };
 
 struct TiledRun {

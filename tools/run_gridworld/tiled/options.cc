@@ -104,6 +104,10 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
            "--raw-light", [&options] { options.normalise = false; },
            "do not normalise the light of pictures")
         ->disable_flag_override();
+    app.add_flag_callback(
+           "--pairs", [&options] { options.pairs = true; },
+           "try also as many pairs of points, for arrangements")
+        ->disable_flag_override();
     add_file(app, "--metric", options.metric, "use this metric instead of fitting one");
     add_file(app, "--save-metric", options.save_metric, "write the metric");
 }

@@ -25,6 +25,7 @@ struct TiledOptions : LearningOptions {
     float margin = 1.8f;
     uint32_t candidates = 64;
     bool normalise = true;
+    bool pairs = false;              // features of two points, too
     std::string metric, save_metric; // files
 
     std::string snapshot; // a file; empty: none

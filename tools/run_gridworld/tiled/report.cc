@@ -24,13 +24,17 @@ std::string padded(const std::string &text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
-std::string place_text(const Gallery &gallery, const Place *place) {
-    if (!place) {
+std::string point_text(const rlvc_point &point) {
+    return "(" + fixed(double{point.x}, 0) + ", " + fixed(double{point.y}, 0) + ")";
+}
+
+std::string place_text(const Gallery &gallery, const Test &test) {
+    if (!test.place) {
         return "an unknown picture";
     }
-    return gallery.objects()[place->object].name + " at " + std::to_string(place->angle) +
-           " deg, (" + fixed(double{place->point.x}, 0) + ", " + fixed(double{place->point.y}, 0) +
-           ")";
+    return gallery.objects()[test.place->object].name + " at " + std::to_string(test.place->angle) +
+           " deg, " + point_text(test.place->point) +
+           (test.second ? " with " + point_text(test.second->point) : "");
 }
 
 Json describe_options(const TiledOptions &options) {
@@ -50,7 +54,8 @@ Json describe_options(const TiledOptions &options) {
               {"share", shortest(options.share)},
               {"margin", shortest(options.margin)},
               {"candidates", options.candidates},
-              {"normalise", options.normalise}};
+              {"normalise", options.normalise},
+              {"pairs", options.pairs}};
     add_learning(json, options);
     return json;
 }
@@ -95,6 +100,9 @@ Json describe_run(const gridworld_maze &maze, const TiledRun &run) {
         one["angle"] = test.place ? Json(test.place->angle) : Json(nullptr);
         one["x"] = test.place ? Json(shortest(test.place->point.x)) : Json(nullptr);
         one["y"] = test.place ? Json(shortest(test.place->point.y)) : Json(nullptr);
+        one["second"] = test.second ? Json{{"x", shortest(test.second->point.x)},
+                                           {"y", shortest(test.second->point.y)}}
+                                    : Json(nullptr);
         tests.push_back(std::move(one));
     }
     return {{"seed", run.seed},
@@ -145,7 +153,7 @@ std::string describe_tests(const Gallery &gallery, const TiledRun &run) {
     for (std::size_t j = 0; j < run.tests.size(); j++) {
         text += padded(std::to_string(j), 5) + "  class " +
                 padded(std::to_string(run.tests[j].split_class), 3) + "  " + run.tests[j].name +
-                ": " + place_text(gallery, run.tests[j].place) + "\n";
+                ": " + place_text(gallery, run.tests[j]) + "\n";
     }
     return text;
 }
@@ -184,7 +192,7 @@ std::string runs_table_end(const std::vector<TiledRun> &runs) {
 std::string make_dot(const Gallery &gallery, const TiledRun &run) {
     std::string dot = run.tree_dot;
     for (const Test &test : run.tests) {
-        const std::string place = place_text(gallery, test.place);
+        const std::string place = place_text(gallery, test);
         const std::size_t at = dot.find(test.name);
         if (at != std::string::npos) {
             dot.replace(at, test.name.size(), place);
