@@ -11,7 +11,7 @@ import rlvc
 from rlvc.counts import rounds
 from rlvc.counts.part import Part, Question
 from rlvc.counts.table import Columns, Table, added
-from rlvc.errors import ConfigError, CountError, LogError, RangeError
+from rlvc.errors import ConfigError, CountError, LogError, LogWarning, RangeError
 
 
 def random_columns(rng, bits, count, actions=3):
@@ -220,3 +220,62 @@ def test_too_many_is_an_error():
     part = scaled(counted(worlds.maze(1000), rounds.question_of(agent, (), False)), 2**48)
     with pytest.raises(RangeError):
         agent.learn_counts(part.native(np.arange(18, dtype=np.uint16), np.zeros(0, np.uint32)))
+
+
+# ------------------------------------------------------------------ logs above the replay buffer
+
+
+def test_a_long_log_is_counted_and_nothing_is_left_out(monkeypatch):
+    some = worlds.maze(20_000, slip=0.1)
+    log = worlds.log_of(some)
+    expected = rlvc.learn_from(log, actions=4)
+    monkeypatch.setattr("rlvc.learning.learn._CAPACITY_MAX", 30_000)
+    run = rlvc.learn_from(log, actions=4)
+    expect_same(run.agent, expected.agent)
+    assert [(r.step, r.interactions, r.classes, r.splits) for r in run.history] == [(1, 20_000, 46, 45)]
+    assert run.agent.statistics.interactions == 20_000
+    assert run.agent.statistics.stored == 0
+    whole = rlvc.learn_from(log | {"exploited": np.zeros(20_000, bool)}, actions=4, criterion="returns")
+    assert whole.agent.config.capacity == 40_000
+
+
+def test_a_short_ring_says_what_it_leaves_out():
+    log = worlds.log_of(worlds.maze(3000))
+    with pytest.warns(LogWarning, match=r"capacity 1000 holds the last \d+ of 3000 interactions"):
+        run = rlvc.learn_from(log, actions=4, capacity=1000)
+    assert run.history[0].interactions == run.agent.statistics.stored <= 1000
+
+
+# ------------------------------------------------------------------ fuzzing
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_any_log_makes_the_same_tree(seed):
+    """Small worlds by chance: bits that follow from each other, rewards of a few values or of any."""
+    rng = np.random.default_rng(seed)
+    bits, actions, count = int(rng.integers(1, 9)), int(rng.integers(1, 5)), int(rng.integers(50, 3000))
+    state = rng.integers(0, 2, (count + 1, bits)).astype(bool)
+    action = rng.integers(0, actions, count)
+    rule = rng.integers(0, bits, (bits, 2))
+    for f in range(bits):  # what follows, sometimes
+        follows = rng.random(count) < rng.random()
+        state[1:, f] = np.where(follows, state[:-1, rule[f, 0]] ^ (action % 2 == rule[f, 1] % 2), state[1:, f])
+    kind = rng.integers(0, 3)
+    rewards = (state[:-1, 0] * (action + 1.0) * [1.0, 0.1, 1e9][kind]).astype(np.float32)
+    if rng.random() < 0.5:
+        rewards += (rng.integers(0, 3, count) * 0.3).astype(np.float32)
+    if rng.random() < 0.2:
+        rewards += rng.standard_normal(count).astype(np.float32)
+    terminated = rng.random(count) < 0.05
+    log = {"observations": state[:-1], "next_observations": state[1:], "actions": action, "rewards": rewards,
+           "terminated": terminated, "truncated": ~terminated & (rng.random(count) < 0.02)}  # fmt: skip
+    config = {"discount": float(rng.choice([0.0, 0.5, 0.99])), "successors": bool(rng.integers(0, 2)),
+              "explore": str(rng.choice(["uniform", "directed"])), "classes": int(rng.choice([3, 64])),
+              "solver": str(rng.choice(["value_iteration", "policy_iteration"]))}  # fmt: skip
+    expected = rlvc.learn_from(log, actions=actions, **config).agent
+    monkey = pytest.MonkeyPatch()
+    with monkey.context() as patch:
+        patch.setattr("rlvc.learning.learn._CAPACITY_MAX", 10)
+        agent = rlvc.learn_from(log, actions=actions, **config).agent
+    assert agent.statistics.stored == 0
+    expect_same(agent, expected)

@@ -22,13 +22,14 @@ import numpy as np
 import rlvc
 import rlvc.fleet
 from rlvc.counts.part import Question
-from rlvc.counts.table import Columns, Table
+from rlvc.counts.table import Table
 from rlvc.fleet import layout
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "tests/shim"))
 import worlds
 
 FILES = 28
+LOOPED = 50_000  # interactions
 
 
 def write(folder, interactions):
@@ -96,23 +97,23 @@ def by_workers(folder, workers):
     return {"workers": workers, "counting": round(seconds, 2)} | told(run)
 
 
-def instructions(rows, follow):
-    """Instructions that the loop takes for a row, by valgrind."""
-    program = (f"import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r}); import fleet; "
-               f"fleet.count_rows({rows}, {follow})")
-    done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-                           "--toggle-collect=rlvc_shim_count", sys.executable, "-c", program],
-                          capture_output=True, text=True, check=True)
-    return int(re.search(r"Collected : (\d+)", done.stderr)[1]) / rows
+def instructions(follow):
+    """Instructions that the loop takes for an interaction: by valgrind, the difference of counting once and thrice."""
+    totals = []
+    for times in (1, 3):
+        program = (f"import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r}); import fleet; "
+                   f"fleet.count_again({times}, {follow})")
+        done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", sys.executable, "-c",
+                               program], capture_output=True, text=True, check=True)
+        totals.append(int(re.search(r"Collected : (\d+)", done.stderr)[1]))
+    return (totals[1] - totals[0]) / (2 * LOOPED)
 
 
-def count_rows(rows, follow):
-    some = worlds.maze(100_000)
-    index = np.arange(rows) % len(some)
-    part = Columns(*(np.ascontiguousarray(getattr(some, name)[index])
-                     for name in ("percepts", "next_percepts", "actions", "rewards", "ends", "keys")))
+def count_again(times, follow):
+    some = worlds.maze(LOOPED)
     table = Table(Question(worlds.BITS, 4, (0, 1, 2, 3, 15, 16, 17), follow=follow))
-    table.count(part)
+    for _ in range(times):
+        table.count(some)
 
 
 def main():
@@ -122,7 +123,7 @@ def main():
     arguments = parser.parse_args()
     if arguments.instructions:
         for follow in (False, True):
-            told_of = {"what follows": follow, "instructions": round(instructions(200_000, follow), 1)}
+            told_of = {"what follows": follow, "instructions": round(instructions(follow), 1)}
             print(json.dumps(told_of), flush=True)
         return
     with tempfile.TemporaryDirectory() as folder:

@@ -61,7 +61,7 @@ static int weigh(const rlvc_count_table *table, const group *of, uint32_t f,
     if (present == 0 || present == of->size)
         return 0;
     rlvc_evidence_divides(pool, of->cuts);
-    rlvc_table best;
+    rlvc_table best = {0, 0, 0, 0};
     float score = best_cutpoint(table, of, f, present, &best);
     if (!(score > 0.0f))
         return 0;

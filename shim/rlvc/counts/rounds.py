@@ -9,7 +9,9 @@ from collections.abc import Callable
 import numpy as np
 
 from ..agent.agent import Agent
+from ..agent.config import Config
 from ..domains.bits import Bits
+from ..domains.domain import Domain
 from ..errors import ConfigError, CountError
 from .part import Part, Question
 
@@ -33,29 +35,38 @@ class Progress:
     done: bool = False
 
 
+def why_not(domain: Domain, config: Config) -> str:
+    """Say, in one sentence, why what an agent is to do does not follow from counts; empty if it does.
+
+    Parameters
+    ----------
+    domain : Domain
+    config : Config
+    """
+    if not isinstance(domain, Bits):
+        return (
+            f"domain: counts are of bits; the candidates of {type(domain).__name__} depend on the "
+            "percepts of each class: encode them as bits, with thresholds of your own"
+        )
+    if config.criterion == "returns":
+        return "criterion: returns depend on the order of a whole episode, which counts do not keep"
+    if config.solver in ("q_learning", "sarsa"):
+        return f"solver: {config.solver} depends on the order of interactions, which counts do not keep"
+    if config.score == "ranks":
+        return "score: ranks are not made from counts yet: use the information gain"
+    return ""
+
+
 def refuse(agent: Agent) -> None:
-    """Raise ConfigError, in one sentence, if what an agent is to do does not follow from counts.
+    """Raise ConfigError if what an agent is to do does not follow from counts.
 
     Parameters
     ----------
     agent : Agent
     """
-    config = agent.config
-    if not isinstance(agent.domain, Bits):
-        raise ConfigError(
-            f"domain: counts are of bits; the candidates of {type(agent.domain).__name__} depend on the "
-            "percepts of each class: encode them as bits, with thresholds of your own"
-        )
-    if config.criterion == "returns":
-        raise ConfigError(
-            "criterion: returns depend on the order of a whole episode, which counts do not keep"
-        )
-    if config.solver in ("q_learning", "sarsa"):
-        raise ConfigError(
-            f"solver: {config.solver} depends on the order of the interactions, which counts do not keep"
-        )
-    if config.score == "ranks":
-        raise ConfigError("score: ranks are not made from counts yet: use the information gain")
+    why = why_not(agent.domain, agent.config)
+    if why:
+        raise ConfigError(why)
 
 
 def question_of(agent: Agent, tested: tuple[int, ...], sums: bool) -> Question:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,9 +14,12 @@ from .. import _native
 from ..agent.agent import Agent
 from ..agent.results import CHOICE
 from ..checks import whole
+from ..counts import rounds
+from ..counts.part import Part
+from ..counts.table import Columns, Table
 from ..domains.bits import Bits
 from ..domains.domain import Domain
-from ..errors import ConfigError, LogError, PerceptError
+from ..errors import ConfigError, LogError, LogWarning, PerceptError
 from ..learning.actions import Actions
 from ..learning.encode import Encoder, Numbers
 from ..learning.learn import default_config, domain_of
@@ -183,11 +187,17 @@ def learn_from(
     Warns
     -----
     LogWarning
-        Something of the log is left out, or numbers become one in binary32.
+        Something of the log is left out, as by a ``capacity`` that holds a part of it only, or
+        numbers become one in binary32.
 
     Notes
     -----
     Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True.
+
+    Without a ``capacity``, up to half a million interactions are learnt from in the replay buffer.
+    More are counted (``core/include/rlvc/counts.h``), which makes the same tree in less time and
+    memory; the replay buffer is then empty. Where counts do not do, as for real numbers, the replay
+    buffer holds all. :mod:`rlvc.fleet` learns from what does not fit into memory.
     """
     if isinstance(columns, str):
         columns = [columns]
@@ -203,23 +213,67 @@ def learn_from(
     else:
         made, encoder, before, after = encoded(log, encoder, space, thresholds, names)
     settings = default_config(known.count, len(log), seed, config)
+    by_counts = "capacity" not in config and len(log) > settings.capacity // 2
+    if by_counts and rounds.why_not(made, settings):
+        settings = settings.replace(capacity=2 * len(log))  # all of it, whatever that takes
+        by_counts = False
     run = Run(Agent(made, settings), encoder, settings.seed, known)
     _see(run, before, made)
+    if by_counts:
+        _by_counts(run, log, before, after)
+    else:
+        _by_ring(run, log, before, after, steps)
+    return run
+
+
+def _by_ring(run: Run, log: Log, before: Any, after: Any, steps: int) -> None:
+    """Learn from the interactions in the replay buffer."""
+    agent = run.agent
     choices = np.zeros(len(log), CHOICE)
     choices["action"] = log.actions
     if log.exploited is not None:
         choices["exploited"] = log.exploited
     for k in range(steps):
-        if k == 0 or settings.criterion == "returns":
-            run.agent.observe_many(before, choices, log.rewards, after, log.ends)
+        if k == 0 or agent.config.criterion == "returns":
+            agent.observe_many(before, choices, log.rewards, after, log.ends)
+            stored = agent.statistics.stored
+            if stored < len(log):
+                warnings.warn(
+                    f"{log.where}: capacity {agent.config.capacity} holds the last {stored} of "
+                    f"{len(log)} interactions; the others were left out",
+                    LogWarning,
+                    stacklevel=3,
+                )
         try:
-            splits = run.agent.learn().splits
+            splits = agent.learn().splits
         except KeyboardInterrupt:
             run.interrupted = True
             break
-        classes = run.agent.classes
-        run.history.append(Record(k + 1, len(log), classes, splits, 0, float("nan")))
-    return run
+        run.history.append(Record(k + 1, stored, agent.classes, splits, 0, float("nan")))
+
+
+def _by_counts(run: Run, log: Log, before: Any, after: Any) -> None:
+    """Learn from counts of the interactions, which take less memory than these."""
+    agent, actions = run.agent, log.actions.astype(np.uint8)
+    rewards = np.ascontiguousarray(log.rewards)
+    columns = Columns(
+        np.ascontiguousarray(before),
+        np.ascontiguousarray(after),
+        actions,
+        rewards,
+        log.ends,
+        rewards,
+    )
+
+    def count(cell: tuple[int, ...]) -> Part:
+        table = Table(rounds.question_of(agent, cell, False))
+        table.count(columns, log.where)
+        return table.part()
+
+    progress = rounds.Progress()
+    rounds.learn(agent, count, progress, set())
+    record = Record(1, len(log), agent.classes, progress.splits, 0, float("nan"))
+    run.history.append(record)
 
 
 def _see(run: Run, percepts: npt.NDArray[Any], domain: Domain) -> None:
