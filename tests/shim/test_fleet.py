@@ -11,6 +11,8 @@ import signal
 import subprocess
 import sys
 import textwrap
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -383,3 +385,43 @@ def test_the_command(tmp_path, some, expected):
         np.testing.assert_array_equal(back["actions"], some.actions)
     done = rlvc_fleet("learn", tmp_path / "none", status=1)
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.skipif("RLVC_FLEET_LONG" not in os.environ, reason="takes a minute: RLVC_FLEET_LONG=1")
+def test_a_node_that_is_lost(tmp_path, folder, expected, monkeypatch):
+    ray = pytest.importorskip("ray")
+    from ray.cluster_utils import Cluster
+
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("RAY_USAGE_STATS_ENABLED", "0")
+    cluster = Cluster(initialize_head=True, head_node_args={"num_cpus": 0, "include_dashboard": False})
+    nodes = [cluster.add_node(num_cpus=1) for _ in range(2)]
+    ray.init(cluster.address, log_to_driver=False, logging_level="ERROR")
+    begun = tmp_path / "begun"
+    begun.mkdir()
+    folder_of_marks = str(begun)
+
+    def slow(counting, piece):
+        import time
+        import uuid
+
+        with open(f"{folder_of_marks}/{uuid.uuid4()}", "w"):
+            time.sleep(0.5)
+        return counting.piece(piece)
+
+    def lose():
+        while len(list(begun.iterdir())) < 3:
+            time.sleep(0.05)
+        cluster.remove_node(nodes[0], allow_graceful=False)
+
+    monkeypatch.setattr(engines, "count", slow)
+    killer = threading.Thread(target=lose)
+    killer.start()
+    try:
+        run = rlvc.fleet.learn_from(folder, cluster="ray", sample=0)
+    finally:
+        killer.join()
+        ray.shutdown()
+        cluster.shutdown()
+    expect_same(run, expected)
+    assert len(list(begun.iterdir())) > 7 * run.report.passes  # some were done again
