@@ -6,12 +6,15 @@ from __future__ import annotations
 import ctypes
 import time
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from . import _native
 from .agent.agent import Agent
 from .agent.results import CHOICE
+from .learning.interact import ends_of
+from .learning.learn import learn
 
 PERCEPTS = 1_000_000
 _STEPS = 50_000
@@ -32,9 +35,9 @@ def best(function: Callable[[], object], rounds: int = 7) -> float:
     """
     times = []
     for _ in range(rounds):
-        start = time.perf_counter()
+        start = time.process_time()
         function()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     return min(times)
 
 
@@ -122,8 +125,95 @@ def batch_time(agent: Agent, environments: int) -> float:
     return best(steps) / (rounds * environments)
 
 
+def _walk(env: Any, count: int, seed: int) -> tuple[float, list[Any]]:
+    """Random interactions: the seconds that the environment takes alone, and what was seen."""
+    actions = np.random.default_rng(seed).integers(env.action_space.n, size=count).tolist()
+    seen, (observation, _) = [], env.reset(seed=seed)
+    start = time.process_time()
+    for action in actions:
+        following, reward, terminated, truncated, _ = env.step(action)
+        seen.append((observation, action, reward, following, terminated, truncated))
+        observation = env.reset()[0] if terminated or truncated else following
+    return time.process_time() - start, seen
+
+
+def _core(run: Any, seen: list[Any], every: int) -> float:
+    """The seconds that the core takes by itself: the same number of interactions and steps."""
+    before, actions, rewards, after, terminated, truncated = zip(*seen, strict=True)
+    sides = [run.encoder.encode_many(np.array(side)) for side in (before, after)]
+    choices = np.zeros(len(seen), CHOICE)
+    choices["action"] = actions
+    numbers, ends = np.array(rewards, np.float32), ends_of(terminated, truncated)
+    agent = Agent(run.agent.domain, run.agent.config)
+    start = time.process_time()
+    for at in range(0, len(seen), every):
+        some = slice(at, at + every)
+        agent.observe_many(sides[0][some], choices[some], numbers[some], sides[1][some], ends[some])
+        agent.learn()
+    return time.process_time() - start
+
+
+def learning_times(env: Any, interactions: int, seed: int = 1) -> tuple[float, float, float]:
+    """Time :func:`rlvc.learn`, and what it cannot do without.
+
+    Parameters
+    ----------
+    env : gymnasium.Env
+        Of Discrete actions; its observations are encoded as bits.
+    interactions, seed : int
+
+    Returns
+    -------
+    tuple of float
+        Seconds of learning, of the environment alone with random actions, and of the core alone with
+        the interactions of these.
+    """
+    alone, seen = _walk(env, interactions, seed)
+    start = time.process_time()
+    run = learn(env, interactions, seed=seed, method="classes")
+    whole = time.process_time() - start
+    return whole, alone, _core(run, seen, max(100, interactions // 100))
+
+
+def _tasks() -> None:
+    try:
+        import gymnasium
+    except ImportError:
+        print("learning in environments is not timed: it needs Gymnasium, pip install 'rlvc[gym]'")
+        return
+    for task, count in (("Taxi-v4", 30_000), ("FrozenLake-v1", 30_000)):
+        whole, alone, core = learning_times(gymnasium.make(task), count)
+        print(
+            f"{task}, {count} interactions: learn {whole:.2f} s, environment alone {alone:.2f} s, core "
+            f"alone {core:.2f} s: {whole / (alone + core):.2f} times both"
+        )
+    one = _beside(gymnasium.make("FrozenLake-v1"), 1)
+    many = _beside(gymnasium.make_vec("FrozenLake-v1", num_envs=16, vectorization_mode="sync"), 16)
+    print(
+        f"an interaction beside FrozenLake's own step: {one * 1e6:.1f} us; in a vector of 16: "
+        f"{many * 1e6:.1f} us"
+    )
+
+
+def _beside(env: Any, environments: int, count: int = 20_000) -> float:
+    """Seconds that an interaction takes beside the environment's own step, without learning steps."""
+    random = np.random.default_rng(1)
+    shape = environments if environments > 1 else None
+    actions = [random.integers(4, size=shape) for _ in range(count // environments)]
+    env.reset(seed=1)
+    start = time.process_time()
+    for action in actions:
+        _, _, terminated, truncated, _ = env.step(action)
+        if environments == 1 and (terminated or truncated):
+            env.reset()
+    alone = time.process_time() - start
+    start = time.process_time()
+    learn(env, count, seed=1, every=count, classes=1)
+    return (time.process_time() - start - alone) / count
+
+
 def main() -> None:
-    """Print a table."""
+    """Print a table, and the ratio of learning to what it cannot do without."""
     agent = grown_agent()
     percepts = many_percepts()
     print(f"{agent}, depth {agent.statistics.depth}")
@@ -139,3 +229,4 @@ def main() -> None:
     ]
     for name, seconds in rows:
         print(f"{seconds * 1e9:8.0f} ns  {name}")
+    _tasks()

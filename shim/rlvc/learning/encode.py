@@ -168,6 +168,10 @@ class Encoder:
         # Of one Discrete every percept is known beforehand.
         self._table = parts[0].table(real) if len(parts) == 1 and parts[0].path == () else None
         self._first = parts[0].starts[0] if self._table else 0
+        flat = np.frombuffer(
+            b"".join(self._table or [bytes(self._bytes)]), self.domain.percept_dtype
+        )
+        self._rows = flat.reshape(-1, *self.domain.percept_shape)
         table = all(
             len(p.path) == 1 and p.kind in ("reals", "word") and p.shape == () for p in parts
         )
@@ -282,6 +286,12 @@ class Encoder:
         -------
         ndarray, [n, *percept_shape] of the domain
         """
+        if self._table is not None:
+            indices = np.asarray(observations)
+            if indices.dtype.kind in "iu" and indices.ndim == 1 and len(indices):
+                indices = indices - self._first
+                if indices.min() >= 0 and indices.max() < len(self._rows):
+                    return self._rows[indices]
         if self._columns and not hasattr(observations, "keys"):
             rows = zip(*(self._by_name(row).values() for row in observations), strict=True)
             observations = dict(zip(self._columns, rows, strict=True))
@@ -293,7 +303,8 @@ class Encoder:
                 raise
             raise PerceptError(f"a batch that is not of the space: {error}") from error
         if isinstance(self.domain, Bits):
-            return np.packbits(joined.astype(np.bool_), axis=1, bitorder="little")
+            packed = np.packbits(joined.astype(np.bool_), axis=1, bitorder="little")
+            return np.ascontiguousarray(packed)
         return np.ascontiguousarray(joined, np.float32)
 
     def values(self, percept: Any) -> list[float]:

@@ -49,8 +49,10 @@ class Interaction:
         live = np.flatnonzero(~self.stream.dead)[: self.interactions - self.done]
         reached, rewards, terminated, truncated = self.stream.step_all(actions)
         over = terminated | truncated
-        for i in live.tolist():
-            self._count(i, float(rewards[i]), bool(over[i]))
+        for i, reward, ended in zip(
+            live.tolist(), rewards[live].tolist(), over[live].tolist(), strict=True
+        ):
+            self._count(i, reward, ended)
         self.done += len(live)
         return live, reached, rewards[live], ends_of(terminated[live], truncated[live])
 
