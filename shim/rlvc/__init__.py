@@ -27,6 +27,8 @@ reinforcement learning".
 #     fleet      learning from the logs of many machines
 #     bench      what the package's calls cost
 #     cli        the commands of python -m rlvc
+from typing import Any
+
 from ._version import __version__
 from .agent.agent import Agent
 from .agent.batch import Batch
@@ -53,10 +55,12 @@ from .domains.thresholds import Thresholds
 from .errors import Error
 from .learning import encode
 from .learning.actions import Actions
+from .learning.callbacks import CheckpointCallback, CsvCallback, EvalCallback, TensorBoardCallback
 from .learning.encode import Encoder
 from .learning.evaluation import Evaluation
 from .learning.explanation import Explanation
 from .learning.learn import learn
+from .learning.many import Many, learn_many
 from .learning.run import Record, Run
 from .learning.store import load
 from .logs import learn_from
@@ -67,15 +71,20 @@ __all__ = [
     "Agent",
     "Batch",
     "Bits",
+    "CheckpointCallback",
     "Choice",
     "Compaction",
     "Config",
+    "CsvCallback",
     "Descriptors",
     "Domain",
     "Encoder",
     "Error",
+    "EvalCallback",
     "Evaluation",
     "Explanation",
+    "History",
+    "Many",
     "MinTree",
     "PlannedPolicy",
     "Planner",
@@ -89,11 +98,22 @@ __all__ = [
     "Spatial",
     "Split",
     "Statistics",
+    "TensorBoardCallback",
     "Thresholds",
     "__version__",
     "encode",
     "learn",
     "learn_from",
+    "learn_many",
     "load",
     "min_tree",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what needs Gymnasium only when it is asked for."""
+    if name == "History":
+        from .envs.history import History
+
+        return History
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

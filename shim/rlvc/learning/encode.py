@@ -291,7 +291,7 @@ class Encoder:
             if indices.dtype.kind in "iu" and indices.ndim == 1 and len(indices):
                 indices = indices - self._first
                 if indices.min() >= 0 and indices.max() < len(self._rows):
-                    return self._rows[indices]
+                    return np.asarray(self._rows[indices])
         if self._columns and not hasattr(observations, "keys"):
             rows = zip(*(self._by_name(row).values() for row in observations), strict=True)
             observations = dict(zip(self._columns, rows, strict=True))

@@ -27,7 +27,7 @@ try:
 except ImportError:
     raise ImportError("rlvc.plot needs Matplotlib: pip install 'rlvc[plot]'") from None
 
-from .curves import learning_curve, splits
+from .curves import learning_curve, returns, splits
 from .mazes import maze, tiles, values
 from .trees import features, tree
 
@@ -42,4 +42,14 @@ KINDS = {
 }
 """The functions by the names that ``python -m rlvc plot`` uses."""
 
-__all__ = ["KINDS", "features", "learning_curve", "maze", "splits", "tiles", "tree", "values"]
+__all__ = [
+    "KINDS",
+    "features",
+    "learning_curve",
+    "maze",
+    "returns",
+    "splits",
+    "tiles",
+    "tree",
+    "values",
+]

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from ..errors import RunError
@@ -60,6 +62,32 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
     tidy(lower)
     title = "Learning" if len(runs) == 1 else f"Learning: {len(runs)} runs"
     upper.set_title(title, fontsize=12, loc="left")
+    return save(figure, file)
+
+
+def returns(source: Any, file: str | Path | None = None, ax: Any = None) -> Figure:
+    """Draw the return without exploring over interactions: of an EvalCallback, or of learn_many.
+
+    Of many runs the line is the median, and the band holds half of them; thin lines are the worst and
+    the best. ``ax`` is an axes to draw into.
+    """
+    figure = Figure(figsize=(7, 4), layout="constrained") if ax is None else ax.figure
+    axes = figure.subplots() if ax is None else ax
+    if hasattr(source, "evaluations"):
+        means = np.array([evaluation.mean for evaluation in source.evaluations])
+        axes.plot(source.interactions, means, color=BLUE, linewidth=2, marker="o", markersize=3.5)
+    else:
+        low, middle, high = np.percentile(source.returns, [25, 50, 75], axis=0)
+        ends = (source.returns.min(axis=0), source.returns.max(axis=0))
+        axes.fill_between(source.interactions, low, high, color=BLUE, alpha=0.25, linewidth=0)
+        for edge in ends:
+            axes.plot(source.interactions, edge, color=GREY, linewidth=0.8, linestyle=":")
+        axes.plot(source.interactions, middle, color=BLUE, linewidth=2)
+        text = f"median of {len(source.returns)} seeds, half of them in the band, worst and best dotted"
+        axes.set_title(text, fontsize=10, loc="left")
+    axes.set_xlabel("interactions")
+    axes.set_ylabel("return without exploring")
+    tidy(axes)
     return save(figure, file)
 
 

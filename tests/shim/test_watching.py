@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: MIT
+"""Watching a run: callbacks, many seeds, hidden states, actions that are no numbers."""
+
+import csv
+import io
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium import spaces
+from test_learning import Line
+
+import rlvc
+from rlvc import errors
+
+
+def test_a_curve_without_exploring(tmp_path):
+    watch = rlvc.EvalCallback(Line(limit=30), 200, 10, best=tmp_path / "best.rlvc", stop_at=1.0)
+    keep = rlvc.CheckpointCallback(tmp_path / "at-{}.rlvc", 200)
+    table = rlvc.CsvCallback(tmp_path / "history.csv")
+    run = rlvc.learn(
+        Line(limit=30), 5000, every=100, seed=1, discount=0.9, callback=[watch, keep, table, None]
+    )
+    assert run.interactions < 5000
+    assert watch.interactions == list(range(200, run.interactions + 1, 200))
+    assert watch.evaluations[-1].mean == 1.0
+    assert rlvc.load(tmp_path / "best.rlvc").evaluate(Line(limit=30), 10).mean == 1.0
+    assert rlvc.load(tmp_path / "at-200.rlvc").interactions == 200
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "history.csv").read_text(encoding="utf-8"))))
+    assert [int(row["interactions"]) for row in rows] == [r.interactions for r in run.history]
+    with pytest.raises(errors.ConfigError, match="every"):
+        rlvc.EvalCallback(Line(), 0)
+
+
+def test_tensorboard(tmp_path):
+    pytest.importorskip("tensorboardX")
+    rlvc.learn(Line(), 500, seed=1, callback=rlvc.TensorBoardCallback(tmp_path))
+    assert any(tmp_path.iterdir())
+
+
+def test_many_seeds(tmp_path):
+    arguments = {"points": 4, "episodes": 5}
+    many = rlvc.learn_many("FrozenLake-v1", 2000, seeds=3, processes=2, discount=0.9, **arguments)
+    again = rlvc.learn_many(
+        "FrozenLake-v1", 2000, seeds=[2], processes=1, discount=0.9, **arguments
+    )
+    assert many.interactions.tolist() == [500, 1000, 1500, 2000]
+    assert many.returns.shape == (3, 4)
+    assert many.returns[1].tolist() == again.returns[0].tolist()
+    assert many.runs[1].text() == again.runs[0].text()
+    assert "3 runs" in repr(many)
+    pytest.importorskip("matplotlib")
+    many.plot(tmp_path / "band.svg")
+
+
+class Corridor(gymnasium.Env):
+    """A T-maze: the side of the reward is seen at the start, and asked for two steps later."""
+
+    observation_space, action_space = spaces.Discrete(4), spaces.Discrete(3)
+
+    def see(self):
+        return np.int64(self.side if self.x == 0 else 3 if self.x == 2 else 2)
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.x, self.age, self.side = 0, 0, int(self.np_random.integers(2))
+        return self.see(), {}
+
+    def step(self, action):
+        self.age += 1
+        if self.x == 2 and action > 0:
+            return self.see(), 4.0 if action - 1 == self.side else -1.0, True, False, {}
+        moved = action == 0 and self.x < 2
+        self.x += moved
+        return self.see(), 0.0 if moved else -0.1, False, self.age >= 40, {}
+
+
+def test_a_hidden_state_is_remembered():
+    env = rlvc.History(Corridor(), 3)
+    assert env.observation_space.contains(env.reset(seed=1)[0])
+    assert env.observation_space.contains(env.step(0)[0])
+    returns = [
+        rlvc.learn(rlvc.History(Corridor(), 3), 4000, seed=seed, discount=0.95)
+        .evaluate(rlvc.History(Corridor(), 3), 50).mean
+        for seed in range(10)
+    ]  # fmt: skip
+    assert sum(value == 4.0 for value in returns) >= 9, returns
+    assert rlvc.learn(Corridor(), 4000, seed=1, discount=0.95).evaluate(Corridor(), 50).mean < 3
+    run = rlvc.learn(rlvc.History(Corridor(), 3), 4000, seed=1, discount=0.95)
+    assert "2 ago" in run.text()
+
+
+class Aim(gymnasium.Env):
+    """One-step episodes: the action is to be near the observation."""
+
+    observation_space = spaces.MultiBinary(2)
+
+    def __init__(self, actions):
+        self.action_space = actions
+        self.taken = []
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.seen = self.np_random.integers(2, size=2).astype(np.int8)
+        self.left = 3
+        return self.seen, {}
+
+    def step(self, action):
+        assert self.action_space.contains(action), action
+        self.taken.append(action)
+        self.left -= 1
+        low, high = np.ravel(self.action_space.low), np.ravel(self.action_space.high)
+        share = (np.ravel(action) - low) / (high - low)
+        return (
+            self.seen,
+            -float(np.abs(share - self.seen[: len(share)]).sum()),
+            self.left == 0,
+            False,
+            {},
+        )
+
+
+def test_a_box_is_a_grid_that_is_held(tmp_path):
+    env = Aim(spaces.Box(np.array([-2, 0], np.float32), np.array([2, 10], np.float32)))
+    with pytest.raises(errors.SpaceError, match="bins="):
+        rlvc.learn(env, 100)
+    run = rlvc.learn(env, 1500, seed=1, bins=3, hold=3, discount=0.0)
+    assert run.actions.count == 9
+    assert run.predict(np.array([1, 0], np.int8)).tolist() == [2.0, 0.0]
+    assert len(env.taken) == 3 * 1500
+    assert run.evaluate(env, 20).mean == 0.0
+    assert run.evaluate(env, 20).lengths.tolist() == [1] * 20
+    text = run.export_c()
+    assert "static const float policy_actions[9][2]" in text
+    assert "#define POLICY_HOLD 3" in text
+    assert "(2, 0)" in run.text()
+    run.save(tmp_path / "run.rlvc")
+    assert rlvc.load(tmp_path / "run.rlvc").predict(np.array([0, 1], np.int8)).tolist() == [
+        -2.0,
+        10.0,
+    ]
+    batch = run.predict(np.array([[1, 0], [0, 1]], np.int8))
+    assert batch.tolist() == [[2.0, 0.0], [-2.0, 10.0]]
+    for wrong in ({"bins": 0}, {"bins": 300}, {"bins": [3]}, {"bins": 3, "hold": 0}):
+        with pytest.raises((errors.ConfigError, errors.SpaceError)):
+            rlvc.learn(env, 10, **wrong)
+
+
+@pytest.mark.parametrize(
+    "space", [spaces.MultiDiscrete([2, 3], start=[0, 5]), spaces.MultiBinary(3)], ids=str
+)
+def test_combinations(space):
+    class Match(Aim):
+        def step(self, action):
+            assert self.action_space.contains(action), action
+            self.left -= 1
+            return self.seen, float(action[0] == self.seen[0]), self.left == 0, False, {}
+
+    run = rlvc.learn(Match(space), 1500, seed=1, discount=0.0)
+    assert run.actions.count == {2: 6, 3: 8}[len(space.sample())]
+    assert [int(run.predict(np.array([bit, 0], np.int8))[0]) for bit in (0, 1)] == [0, 1]
+
+
+@pytest.mark.parametrize("where", ["info", "observation"])
+def test_forbidden_actions_are_not_taken(where):
+    class Masked(Line):
+        def mask(self):
+            return np.array([self.cell != 2, True], np.int8)  # from cell 2 only upwards
+
+        def reset(self, **arguments):
+            return self.told(super().reset(**arguments)[0])
+
+        def told(self, seen):
+            if where == "info":
+                return seen, {"action_mask": self.mask()}
+            return {"cell": seen, "action_mask": self.mask()}, {}
+
+        def step(self, action):
+            assert self.mask()[action], "a forbidden action"
+            seen, reward, over, cut, _ = super().step(action)
+            seen, info = self.told(seen)
+            return seen, reward, over, cut, info
+
+    env = Masked(limit=30)
+    if where == "observation":
+        env.observation_space = spaces.Dict(
+            {"cell": env.observation_space, "action_mask": spaces.MultiBinary(2)}
+        )
+    run = rlvc.learn(env, 3000, seed=1, discount=0.9)
+    assert run.evaluate(env, 30).mean == 1.0
+    envs = (
+        gymnasium.vector.SyncVectorEnv([lambda: Masked(limit=30)] * 3) if where == "info" else None
+    )
+    if envs is not None:
+        assert rlvc.learn(envs, 3000, seed=1, discount=0.9).evaluate(envs, 30).mean == 1.0
