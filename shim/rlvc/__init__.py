@@ -27,6 +27,7 @@ reinforcement learning".
 #     fleet      learning from the logs of many machines
 #     bench      what the package's calls cost
 #     cli        the commands of python -m rlvc
+import importlib
 from typing import Any
 
 from ._version import __version__
@@ -111,7 +112,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Import what needs Gymnasium only when it is asked for."""
+    """Import what needs Gymnasium or Matplotlib only when it is asked for."""
+    if name in ("envs", "plot", "vision"):
+        return importlib.import_module(f"{__name__}.{name}")
     if name == "History":
         from .envs.history import History
 
