@@ -425,3 +425,23 @@ def test_a_node_that_is_lost(tmp_path, folder, expected, monkeypatch):
         cluster.shutdown()
     expect_same(run, expected)
     assert len(list(begun.iterdir())) > 7 * run.report.passes  # some were done again
+
+
+def test_a_fleet_is_compacted_by_a_sample(tmp_path, some, folder):
+    run = rlvc.fleet.learn_from(folder)
+    again = rlvc.fleet.learn_from(shards(tmp_path / "a", some, 3, np.random.default_rng(1)))
+    np.testing.assert_array_equal(run.sample, again.sample)
+    assert len(np.unique(run.sample, axis=0)) == len(run.sample) == 2000
+    file = tmp_path / "checkpoint"
+    for _ in range(2):
+        kept = rlvc.fleet.learn_from(folder, checkpoint=file, sample=0)
+        np.testing.assert_array_equal(kept.sample, run.sample)
+    leaves = run.compact().small.info
+    assert leaves.leaves < run.agent.classes
+    assert leaves.percepts > 40
+    assert run.policy() is run.small
+    assert again.policy().info.leaves == leaves.leaves
+    assert run.agent.statistics.stored == 0
+    for percept in run.sample[:500]:
+        q = run.agent.q[run.agent.predict(percept).class_id]
+        assert q[run.small.act(percept)] >= q.max() - 2 * run.agent.config.tolerance

@@ -20,6 +20,8 @@ from ..counts.part import Part
 from ..counts.rounds import Progress
 from ..errors import ConfigError, LogError
 from ..files import read, replace
+from .counting import Seen
+from .sample import Sample
 
 _VERSION = 1
 
@@ -36,15 +38,15 @@ class State:
     snapshot : bytes
         Of the agent, as it was before it saw the counts.
     progress : Progress
-    seen : dict
-        What was read in a pass.
+    seen : Seen
+        What was read in a pass, and the sample of the first one.
     """
 
     cell: tuple[int, ...]
     part: Part
     snapshot: bytes
     progress: Progress
-    seen: dict[str, Any]
+    seen: Seen
 
 
 def fingerprint(*what: Any) -> str:
@@ -73,8 +75,9 @@ def save(file: str | Path, made_from: str, state: State) -> None:
         "made_from": made_from,
         "cell": state.cell,
         "progress": dataclasses.asdict(state.progress),
-        "seen": state.seen,
+        "seen": [state.seen.rows, state.seen.bytes, state.seen.skipped],
     }
+    sample = state.seen.sample
     arrays = {
         field.name: array
         for field in dataclasses.fields(Part)
@@ -85,6 +88,7 @@ def save(file: str | Path, made_from: str, state: State) -> None:
         content,
         head=np.frombuffer(json.dumps(head).encode(), np.uint8),
         snapshot=np.frombuffer(state.snapshot, np.uint8),
+        sample=np.zeros((0, 1), np.uint8) if sample is None else sample.percepts,
         **arrays,
     )
     replace(file, content.getvalue())
@@ -113,10 +117,11 @@ def load(file: str | Path, made_from: str) -> State | None:
             arrays = {name: archive[name] for name in archive.files}
         head = json.loads(arrays.pop("head").tobytes())
         snapshot = arrays.pop("snapshot").tobytes()
+        sample = arrays.pop("sample")
+        rows, size, skipped = head["seen"]
+        seen = Seen(rows, size, skipped, Sample(sample, max(1, len(sample))))
         part = Part(**({"follow": None, "reward": None} | arrays))
-        state = State(
-            tuple(head["cell"]), part, snapshot, Progress(**head["progress"]), head["seen"]
-        )
+        state = State(tuple(head["cell"]), part, snapshot, Progress(**head["progress"]), seen)
         same = (head["version"], head["made_from"]) == (_VERSION, made_from)
     except Exception as error:  # of zipfile, of numpy's parser, of JSON
         raise LogError(f"{file}: damaged: {error}: delete it to begin anew") from error

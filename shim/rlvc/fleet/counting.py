@@ -12,6 +12,7 @@ from .. import _native
 from ..counts.part import Part, Question
 from ..counts.table import MEMORY, Columns, Table
 from ..errors import LogError
+from .sample import Sample, empty
 from .sources import Piece, blocks
 
 _EXPONENT_BITS = 23  # of a float32's fraction
@@ -62,15 +63,24 @@ class Seen:
     rows, bytes : int
     skipped : list of str
         What was left out, and why.
+    sample : Sample or None
+        Some of the percepts, if they were asked for.
     """
 
     rows: int = 0
     bytes: int = 0
     skipped: list[str] = dataclasses.field(default_factory=list)
+    sample: Sample | None = None
 
     def __add__(self, other: Seen) -> Seen:
         """Return the sum."""
-        return Seen(self.rows + other.rows, self.bytes + other.bytes, self.skipped + other.skipped)
+        samples = [seen.sample for seen in (self, other) if seen.sample is not None]
+        return Seen(
+            self.rows + other.rows,
+            self.bytes + other.bytes,
+            self.skipped + other.skipped,
+            samples[0] + samples[1] if len(samples) == 2 else next(iter(samples), None),
+        )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,12 +95,15 @@ class Counting:
         Bytes that a table may grow to.
     skip : bool
         Whether row groups that are broken are left out; else they are an error.
+    keep : int
+        How many percepts are kept as a sample.
     """
 
     question: Question
     rounding: Rounding = Rounding()
     memory: int = MEMORY
     skip: bool = False
+    keep: int = 0
 
     def into(self, table: Table, piece: Piece) -> Seen:
         """Count a piece into a table.
@@ -105,6 +118,7 @@ class Counting:
         LogError
             The piece is broken; the message names the file, the row group and the fault.
         """
+        sample = empty(-(-self.question.features // 8), self.keep)
         seen = Seen(bytes=piece.bytes)
         for where, block in blocks(piece, self.question.features):
             try:
@@ -116,10 +130,12 @@ class Counting:
                     block = dataclasses.replace(block, keys=self.rounding.keys(block.rewards))
                 table.count(block, where)
                 seen.rows += len(block)
+                sample = sample.with_more(block.percepts)
             except LogError as error:
                 if not self.skip:
                     raise
                 seen.skipped.append(str(error))
+        seen.sample = sample if self.keep else None
         return seen
 
     def _check(self, block: Columns, where: str) -> None:

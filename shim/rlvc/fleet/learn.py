@@ -8,7 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
+from .. import _native
 from ..agent.agent import Agent
+from ..agent.policy import Policy
+from ..agent.results import CHOICE
 from ..checks import flag, real, whole
 from ..counts import rounds
 from ..counts.part import Part
@@ -26,6 +32,7 @@ from .sources import Piece, Source, opened
 
 SAMPLE = 1 << 20  # interactions of which the first pass' features are guessed
 _SAMPLE_PAYS = 8  # times as many interactions in all
+_SAMPLE_MOST = 1 << 14  # percepts, which compact() looks at by default
 _CAPACITY = 2000  # a controller's, to which the snapshot goes
 
 
@@ -59,9 +66,52 @@ class FleetRun(Run):
     Attributes
     ----------
     report : Report
+    sample : ndarray of uint8, [n, bytes]
+        Distinct percepts, at most as many as the agent holds: what :meth:`compact` looks at.
     """
 
     report: Report
+    sample: npt.NDArray[np.uint8]
+
+    def compact(self, tolerance: float | None = None, **limits: Any) -> FleetRun:
+        """Let the smallest policy act that acts as well on a sample of the fleet's percepts.
+
+        Parameters
+        ----------
+        tolerance : float or None
+        **limits
+            As of :meth:`rlvc.Agent.compact`.
+
+        Returns
+        -------
+        FleetRun
+            This one.
+        """
+        self.small = self._seeing().compact(tolerance, **limits)
+        self.compaction = {"tolerance": tolerance, **limits}
+        return self
+
+    def policy(self) -> Policy:
+        """Make a policy by itself: the compact one.
+
+        Returns
+        -------
+        Policy
+        """
+        return self.small if self.small is not None else self._seeing().compact()
+
+    def _seeing(self) -> Agent:
+        """A copy of the agent that holds the sample, as interactions that end at once."""
+        agent = Agent.restore(self.agent.domain, self.agent.config, self.agent.snapshot())
+        count = len(self.sample)
+        agent.observe_many(
+            self.sample,
+            np.zeros(count, CHOICE),
+            np.zeros(count, np.float32),
+            self.sample,
+            np.full(count, _native.TERMINATED, np.uint8),
+        )
+        return agent
 
     @property
     def interactions(self) -> int:
@@ -123,7 +173,7 @@ class _Driver:
             domain, config = self.agent.domain, self.agent.config
             self.agent = Agent.restore(domain, config, self._saved.snapshot)
             self.progress = self._saved.progress
-            self.seen = Seen(**self._saved.seen)
+            self.seen = self._saved.seen
 
     def count(self, cell: tuple[int, ...]) -> Part:
         """Make a pass, unless the checkpoint has its result."""
@@ -131,7 +181,7 @@ class _Driver:
         if saved and cell == saved.cell:
             self.progress.passes -= 1  # counted when it was made
             return saved.part
-        self.seen = Seen()
+        kept, self.seen = self.seen.sample, Seen()
         self._bar.begin(self)
 
         def note(seen: Seen) -> None:
@@ -139,8 +189,10 @@ class _Driver:
             self._bar.note(seen)
 
         question = rounds.question_of(self.agent, cell, bool(self._counting.rounding))
-        counting = dataclasses.replace(self._counting, question=question)
+        keep = 0 if kept is not None else self._counting.keep  # the first pass has seen all
+        counting = dataclasses.replace(self._counting, question=question, keep=keep)
         part = self._engine.total(counting, self._source.pieces, note)
+        self.seen.sample = kept or self.seen.sample
         if part.interactions == 0:
             raise LogError("the source holds no interaction")
         return part
@@ -149,9 +201,7 @@ class _Driver:
         """Save a checkpoint after a pass."""
         self.rows = len(part.row)
         if self._file:
-            state = checkpoints.State(
-                cell, part, self.agent.snapshot(), self.progress, dataclasses.asdict(self.seen)
-            )
+            state = checkpoints.State(cell, part, self.agent.snapshot(), self.progress, self.seen)
             checkpoints.save(self._file, self._made_from, state)
 
     def saved_cell(self) -> set[int]:
@@ -182,7 +232,13 @@ def _guess(agent: Agent, source: Source, counting: Counting, sample: int) -> set
     some = _some(source, sample)
     if not some.pieces:
         return set()
-    trial = _Driver(Agent(agent.domain, agent.config), some, InProcess(), counting, _Bar(False, 0))
+    trial = _Driver(
+        Agent(agent.domain, agent.config),
+        some,
+        InProcess(),
+        dataclasses.replace(counting, keep=0),
+        _Bar(False, 0),
+    )
     try:
         trial.learn(set())
     except CountError:  # it will come again, if it is one
@@ -294,6 +350,7 @@ def learn_from(
         rounding,
         memory,
         flag("skip_broken", skip_broken),
+        min(settings.capacity, _SAMPLE_MOST),
     )
     sample = whole("sample", sample, 0, 2**48)
     engine = engine_of(cluster, workers)
@@ -310,10 +367,15 @@ def learn_from(
     return _run_of(driver, seed)
 
 
+def _nothing(agent: Agent) -> npt.NDArray[np.uint8]:
+    return np.zeros((0, *agent.domain.percept_shape), np.uint8)
+
+
 def _run_of(driver: _Driver, seed: int) -> FleetRun:
     """Make the run of a driver that has come to the end."""
     run = FleetRun(driver.agent, None, seed, Actions(driver.agent.config.actions))
     progress, seen = driver.progress, driver.seen
+    run.sample = driver.seen.sample.percepts if driver.seen.sample else _nothing(driver.agent)
     run.report = Report(
         progress.passes, progress.rounds, seen.rows, seen.bytes, driver.rows, seen.skipped
     )
