@@ -173,17 +173,17 @@ def test_version(tree):
     (tree.folder / "shim/rlvc").mkdir(parents=True)
     tree.write("shim/rlvc/_version.py", '__version__ = "1.2.3"\n')
     tree.write("CHANGELOG.md", "## [1.2.3] - unreleased\n")
-    for folder in ("core/arduino", "core/esp-idf"):
+    for folder in ("tools/packages/arduino", "tools/packages/esp_idf"):
         (tree.folder / folder).mkdir()
     tree.write("library.json", '{\n    "version": "1.2.3"\n}\n')
-    tree.write("core/arduino/library.properties", "version=1.2.3\n")
-    tree.write("core/esp-idf/idf_component.yml", 'version: "1.2.3"\n')
+    tree.write("tools/packages/arduino/library.properties", "version=1.2.3\n")
+    tree.write("tools/packages/esp_idf/idf_component.yml", 'version: "1.2.3"\n')
     assert tree.check("version", "--project", "1.2.3")[0] == 0
     assert tree.check("version", "--project", "1.2.4")[0] == 1
     tree.write("CHANGELOG.md", "## [1.3.0] - unreleased\n")
     assert tree.check("version")[0] == 1
     tree.write("CHANGELOG.md", "## [1.2.3] - unreleased\n")
-    tree.write("core/arduino/library.properties", "version=1.2.2\n")
+    tree.write("tools/packages/arduino/library.properties", "version=1.2.2\n")
     assert tree.check("version")[0] == 1
 
 

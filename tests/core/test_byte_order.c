@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Numbers in records are stored lowest byte first: in snapshots and in logs, whatever the target.
- * tools/packages/targets writes both on a machine of one order and reads them on one of the other.
+ * tools/check/alone.py writes both on a machine of one order and reads them on one of the other.
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -19,8 +19,8 @@ PLACES = [
     ("shim/rlvc/_version.py", r'^__version__ = "(.*)"$'),
     ("CHANGELOG.md", r"^## \[(\d[^\]]*)\]"),
     ("library.json", r'^    "version": "(.*)"'),
-    ("core/arduino/library.properties", r"^version=(.*)"),
-    ("core/esp-idf/idf_component.yml", r'^version: "(.*)"'),
+    ("tools/packages/arduino/library.properties", r"^version=(.*)"),
+    ("tools/packages/esp_idf/idf_component.yml", r'^version: "(.*)"'),
 ]
 
 

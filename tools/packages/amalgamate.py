@@ -127,16 +127,20 @@ def source():
     return "".join(parts)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=pathlib.Path, help="where the two files go")
-    folder = parser.parse_args().folder
+def write(folder):
+    """Makes the two files in a folder."""
     version = re.search(r'RLVC_VERSION "(.*)"', (CORE / "include/rlvc/rlvc.h").read_text(encoding="utf-8"))[1]
     title = (f"/* SPDX-License-Identifier: MIT */\n/* rlvc {version}, made of its sources by tools/packages/amalgamate.py: "
              "change those. */\n")
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "rlvc.h").write_text(title + header(), encoding="utf-8")
     (folder / "rlvc.c").write_text(title + source(), encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=pathlib.Path, help="where the two files go")
+    write(parser.parse_args().folder)
     return 0
 
 

@@ -11,7 +11,12 @@
 extern "C" {
 #endif
 
-#if defined(RLVC_SHARED) && defined(__GNUC__)
+/* RLVC_SHARED is set while a shared library is made, RLVC_DLL while one of Windows is used. */
+#if defined(RLVC_SHARED) && defined(_WIN32)
+#define RLVC_API __declspec(dllexport)
+#elif defined(RLVC_DLL)
+#define RLVC_API __declspec(dllimport)
+#elif defined(RLVC_SHARED) && defined(__GNUC__)
 #define RLVC_API __attribute__((visibility("default")))
 #else
 #define RLVC_API

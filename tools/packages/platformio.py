@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""PlatformIO: `pio pkg pack`, then what its builder does with the manifest that was packed: the sources of srcDir that
+srcFilter names, by build.flags and an Arduino board's own flags. Its platforms come from a registry of its own."""
+
+import json
+import os
+import shutil
+
+import packing
+
+
+def sources_of(library, build):
+    """What a library's srcFilter takes of its srcDir, as PlatformIO reads it: +<glob>."""
+    root = library / build["srcDir"]
+    return [path for rule in build["srcFilter"] for path in sorted(root.glob(rule.removeprefix("+<").removesuffix(">")))]
+
+
+def pack(folder):
+    pio = os.environ.get("RLVC_PIO") or packing.tool("pio")
+    place = folder / "rlvc"
+    packing.copy_project(place)
+    archive = folder / f"rlvc-platformio-{packing.VERSION}.tar.gz"
+    try:
+        packing.run(pio, "pkg", "pack", place, "--output", archive)
+    except packing.Failed as fault:
+        if "Could not load SPDX licenses" not in str(fault):  # it fetches their list
+            raise
+        manifest = json.loads((place / "library.json").read_text(encoding="utf-8"))
+        without = {key: value for key, value in manifest.items() if key != "license"}
+        (place / "library.json").write_text(json.dumps(without), encoding="utf-8")
+        packing.run(pio, "pkg", "pack", place, "--output", archive)
+        shutil.rmtree(place)
+        repacked = packing.unpack(archive, place)
+        (repacked / "library.json").write_text(json.dumps(manifest, indent=4) + "\n", encoding="utf-8")
+        packing.pack_tar_flat(repacked, archive)
+    return archive
+
+
+def check(archive, folder):
+    library = packing.unpack(archive, folder / "elsewhere")
+    manifest = json.loads((library / "library.json").read_text(encoding="utf-8"))
+    build = manifest["build"]
+    sources = sources_of(library, build)
+    if len(sources) != sum(path.suffix == ".c" for path in packing.core_files()):
+        raise packing.Failed(f"{len(sources)} sources are packed")
+    includes = f"-I{library / build['includeDir']}"
+    packing.run("cc", "-std=gnu11", "-Os", *build["flags"], includes, packing.ROW, *sources, "-o", folder / "row")
+    packing.expect_row(packing.run(folder / "row"), folder)
+    return "packed by PlatformIO; built for this machine by its manifest, since its platforms cannot be had"
