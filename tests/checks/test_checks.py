@@ -60,6 +60,7 @@ def tree(tmp_path):
     ("tree/tree.h", '#include "../base/rng.h"\n', None),
     ("base/rng.h", '#include "../tree/tree.h"\n', 'base/rng.h:2: room base includes "../tree/tree.h"'),
     ("base/rng.h", '#include "none.h"\n', "does not exist"),
+    ("base/rng.c", '#include "rng.h"\n', "does not include rlvc/float_rules.h first"),
     ("base/rng.h", '#include "rlvc/rng.h"\n#include <stdint.h>\n', None),
     ("base/rng.h", '#include "rlvc/none.h"\n', "is no public header"),
     ("base/rng.h", "#include <stdlib.h>\n", "rng.h:2: includes <stdlib.h>"),
@@ -174,7 +175,7 @@ def test_version(tree):
     tree.write("shim/rlvc/_version.py", '__version__ = "1.2.3"\n')
     tree.write("CHANGELOG.md", "## [1.2.3] - unreleased\n")
     for folder in ("tools/packages/arduino", "tools/packages/esp_idf"):
-        (tree.folder / folder).mkdir()
+        (tree.folder / folder).mkdir(parents=True)
     tree.write("library.json", '{\n    "version": "1.2.3"\n}\n')
     tree.write("tools/packages/arduino/library.properties", "version=1.2.3\n")
     tree.write("tools/packages/esp_idf/idf_component.yml", 'version: "1.2.3"\n')

@@ -74,7 +74,7 @@ def faults(path):
         yield f"{name}: lies in no room of core/src: {', '.join(ROOMS)}"
         return
     includes = list(INCLUDE.finditer(text))
-    if path.suffix == ".c" and includes[0][2] != "rlvc/float_rules.h":
+    if path.suffix == ".c" and includes and includes[0][2] != "rlvc/float_rules.h":
         yield f"{name}: does not include rlvc/float_rules.h first"
     for match in includes:
         if fault := fault_of_include(path, room, *match.groups()):
