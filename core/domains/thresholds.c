@@ -20,7 +20,7 @@
 #define DIGIT_BITS 8u
 #define DIGITS 256u
 #define SLOPES 6u /* of a pair */
-#define NAME_DIGITS 6u
+#define NAME_DIGITS 9u
 
 typedef struct direction {
     float slope; /* w; 0: along x[i] */

@@ -125,6 +125,7 @@ def test_words(tmp_path):
     loaded = rlvc.load(tmp_path / "run.rlvc")
     assert [loaded.predict([w]) for w in words] == [run.predict([w]) for w in words]
     assert "left" in run.export_c()
+    assert 'place = \\"' in run.text("dot")
 
 
 JSON = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import multiprocessing
+import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -69,6 +70,17 @@ def _one(job: tuple[Any, int, int, int, int, dict[str, Any]]) -> tuple[Run, list
     return run, watch.interactions, [evaluation.mean for evaluation in watch.evaluations]
 
 
+_jobs: list[Any] = []  # of a worker
+
+
+def _take(jobs: list[Any]) -> None:
+    _jobs[:] = jobs
+
+
+def _nth(index: int) -> Any:
+    return _one(_jobs[index])
+
+
 def learn_many(
     env: str | Callable[[], Any],
     interactions: int,
@@ -84,7 +96,8 @@ def learn_many(
     Parameters
     ----------
     env : str or callable
-        Name of a Gymnasium environment, or a function of a module that makes one.
+        Name of a Gymnasium environment, or a function that makes one; where processes cannot be
+        forked, one of a module.
     interactions : int
         Of each run.
     seeds : int or sequence of int
@@ -111,9 +124,11 @@ def learn_many(
     if processes == 1:
         done = [_one(job) for job in jobs]
     else:
-        context = multiprocessing.get_context("spawn")  # a fork would copy threads' locks
-        with ProcessPoolExecutor(processes, mp_context=context) as pool:
-            done = list(pool.map(_one, jobs))
+        # By a fork, scripts and notebooks need no main guard, and env may be a lambda.
+        forks = "fork" in multiprocessing.get_all_start_methods() and sys.platform == "linux"
+        context = multiprocessing.get_context("fork" if forks else "spawn")
+        with ProcessPoolExecutor(processes, context, _take, (jobs,)) as pool:
+            done = list(pool.map(_nth, range(len(jobs))))
     grid = np.unique(np.linspace(0, interactions, points + 1)[1:].astype(np.int64))
     returns = np.array([_on_grid(grid, when, values) for _, when, values in done])
     return Many([run for run, _, _ in done], listed, grid, returns)

@@ -21,6 +21,7 @@ from ..agent.policy import Policy
 from ..agent.results import PlannerStatistics
 from ..errors import RunError
 from ..files import replace
+from ..words import explain
 from . import explanation
 from .actions import Actions
 from .encode import Encoder
@@ -402,7 +403,11 @@ class Run:
         str
             If nothing was learnt, the last line of a text is the :attr:`warning`.
         """
-        text = self.in_words(self.acting.print(form))
+        text = self.acting.print(form)
+        if form == "dot" and type(self.encoder) is Encoder:  # words of a log are in quotes
+            names = [name.replace('"', '\\"') for name in self.encoder.names]
+            text = explain(text, names, self.encoder.flags)
+        text = self.in_words(text)
         return f"{text}{self.warning}\n" if self.warning and form == "text" else text
 
     def explain(self, observation: Any) -> Explanation:
