@@ -286,6 +286,8 @@ static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
     if (slot.version != RLVC_SNAPSHOT_VERSION)
         return RLVC_E_VERSION;
     rlvc_stream_load(stream, store, &slot);
+    /* What is read is passed by value first. */
+    info->percept_bytes = info->feature_bytes = 0;
     memset(&info->config, 0, sizeof info->config);
     int known = pass_identity(stream, &info->percept_bytes, &info->feature_bytes, &info->config);
     if (stream->status != RLVC_OK)

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* Values of which the analyser knows nothing, for the drivers of Frama-C's Eva. */
+#ifndef RLVC_TESTS_EVA_ANY_H
+#define RLVC_TESTS_EVA_ANY_H
+
+#include "__fc_builtin.h"
+
+#include <stdint.h>
+
+static inline uint32_t any_in(uint32_t low, uint32_t high) {
+    return Frama_C_unsigned_int_interval(low, high);
+}
+
+static inline float any_real(float low, float high) {
+    return Frama_C_float_interval(low, high);
+}
+
+static inline void any_bytes(void *bytes, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        ((unsigned char *)bytes)[i] = (unsigned char)Frama_C_unsigned_char_interval(0, 255);
+}
+
+#endif
