@@ -384,6 +384,7 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_vision_config, k)},
     {FIELD(rlvc_vision_config, threshold)},
     {FIELD(rlvc_vision_config, sigma)},
+    {FIELD(rlvc_vision_config, noise)},
     {SIZE(rlvc_point)},
     {FIELD(rlvc_point, x)},
     {FIELD(rlvc_point, y)},

@@ -13,10 +13,13 @@ struct rlvc_shim_objects {
 };
 
 int rlvc_shim_objects_find(const char *folder, const int32_t *angles, uint32_t count,
-                           uint32_t wanted, rlvc_shim_objects **objects, char *text,
-                           size_t room) try {
+                           uint32_t wanted, uint32_t side, uint32_t scale_depth,
+                           rlvc_shim_objects **objects, char *text, size_t room) try {
+    Reading reading;
+    reading.width = reading.height = static_cast<int>(side);
+    reading.scale_depth = scale_depth != 0;
     *objects = new rlvc_shim_objects{
-        find_objects(folder, std::vector<int>(angles, angles + count), wanted)};
+        find_objects(folder, std::vector<int>(angles, angles + count), wanted, reading)};
     return 0;
 } catch (const std::exception &error) {
     std::snprintf(text, room, "%s", error.what());

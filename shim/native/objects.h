@@ -19,11 +19,13 @@ typedef struct rlvc_shim_objects rlvc_shim_objects;
  * `wanted` objects.
  * @param folder  UTF-8; empty: render
  * @param wanted  the minimum number of objects
+ * @param side    pictures are scaled to side x side; 0: left as they are
+ * @param scale_depth  1: 16 bits a channel are scaled to 8; 0: refused
  * @param text    receives the error message, cut to `room` bytes
  * @return 0, and *objects is new; -1, and *objects is unchanged */
 RLVC_API int rlvc_shim_objects_find(const char *folder, const int32_t *angles, uint32_t count,
-                                    uint32_t wanted, rlvc_shim_objects **objects, char *text,
-                                    size_t room);
+                                    uint32_t wanted, uint32_t side, uint32_t scale_depth,
+                                    rlvc_shim_objects **objects, char *text, size_t room);
 
 /* The number of objects, and the height and width of a picture. */
 RLVC_API void rlvc_shim_objects_size(const rlvc_shim_objects *objects, uint32_t *count,

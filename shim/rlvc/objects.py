@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from .checks import whole
 from .errors import PictureError, RangeError
 
 
@@ -72,19 +73,28 @@ def given(pictures: npt.NDArray[np.uint8]) -> Objects:
 
 
 def find(
-    folder: str | Path | None = None, angles: Sequence[int] = (0,), wanted: int = 1
+    folder: str | Path | None = None,
+    angles: Sequence[int] = (0,),
+    wanted: int = 1,
+    resize: int | None = None,
+    scale_depth: bool = False,
 ) -> Objects:
     """Read objects from a folder, or render them, like ``run_gridworld tiled``.
 
     Parameters
     ----------
     folder : str, Path or None
-        Pictures named ``objN__ANGLE.*`` as in COIL-100, or other pictures with one object each.
-        None: render objects.
+        Pictures named ``objN__ANGLE.*`` as in COIL-100; or other pictures with one object each; or
+        a folder for each object, whose pictures, by their names, have the angles 0, 1, ... None:
+        render objects.
     angles : sequence of int
         In degrees, [0, 360). Objects without a picture from each angle are left out.
     wanted : int
         Minimum number of objects, [1, 65536]; exactly this many are rendered.
+    resize : int or None
+        Scale pictures to this many pixels a side, [8, 4096]. None: all must have one size.
+    scale_depth : bool
+        Whether to scale pictures of 16 bits a channel to 8; otherwise they are refused.
 
     Returns
     -------
@@ -113,6 +123,8 @@ def find(
         numbers.ctypes.data,
         len(chosen),
         wanted,
+        0 if resize is None else whole("resize", resize, 8, 4096),
+        scale_depth,
         ctypes.byref(handle),
         text,
         len(text),

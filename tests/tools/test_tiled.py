@@ -201,6 +201,69 @@ def test_bad_pictures(tmp_path, folder, how):
     assert [file.name for file in tmp_path.iterdir() if "report" in file.name] == ["report.json"]
 
 
+def test_folders_of_pictures(tmp_path):
+    """A folder an object, upper-case endings, other sizes, 16 bits; what is hidden is left alone."""
+    for i in range(10):
+        made = tmp_path / "pictures" / f"thing{i}"
+        made.mkdir(parents=True)
+        for view in range(2):
+            write(made / f"{view}.PPM", picture(i, view, size=(64 + i, 64)))
+        write(made / ".hidden.ppm", picture(99))
+    wide = tmp_path / "pictures/thing0/0.PPM"
+    wide.write_bytes(b"P6 64 64 65535\n" + numpy.repeat(picture(0), 2, axis=2).tobytes())
+    arguments = ("--maze", "small", "--images", tmp_path / "pictures", "--interactions", 600, "--poses", "0,1")
+    refused = tiled(*arguments)
+    assert refused.returncode == 2 and "thing0/0.PPM: a picture of 8 bits" in refused.stderr
+    assert "among pictures of" in tiled(*arguments, "--scale-depth").stderr
+    made = report(tmp_path, *arguments, "--scale-depth", "--resize", 64)
+    assert [one["name"] for one in made["objects"]] == [f"thing{i}" for i in range(10)]
+    assert made["optimal_seen"] == 1.0
+
+
+@pytest.mark.parametrize("suffix", [".png", ".jpg", ".webp", ".bmp"])
+def test_a_file_that_was_cut_short(tmp_path, folder, suffix):
+    cv2 = pytest.importorskip("cv2")
+    file = folder / f"a5{suffix}"
+    (folder / "a5.ppm").unlink()
+    assert cv2.imwrite(str(file), picture(5))
+    assert tiled("--maze", "small", "--images", folder, "--interactions", 50).returncode == 0
+    file.write_bytes(file.read_bytes()[:-200])
+    refused = tiled("--maze", "small", "--images", folder, "--interactions", 50)
+    assert refused.returncode == 2
+    assert f"a5{suffix}: cut short" in refused.stderr
+
+
+def test_orientation_is_honoured(tmp_path, folder):
+    """A photograph that lies on its side, and says so, is that which stands."""
+    cv2 = pytest.importorskip("cv2")
+    upright = picture(5, size=(64, 64))
+    _, coded = cv2.imencode(".jpg", upright)
+    _, turned = cv2.imencode(".jpg", numpy.rot90(upright))
+    tiff = b"II*\0\x08\0\0\0\x01\0" + b"\x12\x01\x03\0\x01\0\0\0\x06\0\0\0" + bytes(4)
+    exif = b"\xff\xe1" + (len(tiff) + 8).to_bytes(2, "big") + b"Exif\0\0" + tiff
+    (folder / "a5.ppm").unlink()
+    points = []
+    for bytes_ in (coded.tobytes(), turned.tobytes()[:2] + exif + turned.tobytes()[2:]):
+        (folder / "a5.jpg").write_bytes(bytes_)
+        made = report(tmp_path, "--maze", "small", "--images", folder, "--interactions", 50)
+        points.append({tuple(point[:2]) for one in made["objects"] if one["name"] == "a5"
+                       for point in one["points"]})
+    assert len(points[0] & points[1]) > 0.8 * len(points[0] | points[1])
+
+
+def test_scenery(tmp_path, folder):
+    """Other backgrounds and covers change the pictures, and only those that they are asked for."""
+    arguments = ("--maze", "small", "--interactions", 1500, "--copies", 4)
+    plain = report(tmp_path, *arguments)
+    behind = report(tmp_path, *arguments, "--backgrounds", folder)
+    test_only = report(tmp_path, *arguments, "--test-backgrounds", folder, "--test-cover", 0.1)
+    assert test_only["objects"] == plain["objects"] != behind["objects"]
+    assert test_only["options"]["copies"] == 4 and plain["options"]["copies"] == 1
+    assert behind["optimal_seen"] > 0.9
+    refused = tiled(*arguments, "--backgrounds", tmp_path / "none")
+    assert refused.returncode == 2 and "--backgrounds: cannot read" in refused.stderr
+
+
 @pytest.mark.parametrize("arguments, parts", [
     (["--poses", "0,x"], ["--poses: 'x'", "from -359 to 359"]),
     (["--poses", ""], ["--poses: ''"]),

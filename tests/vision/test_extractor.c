@@ -89,6 +89,9 @@ static void test_configs_refused(void **state) {
     REFUSE(k, NAN);
     REFUSE(threshold, -0.01f);
     REFUSE(threshold, 1.0f);
+    REFUSE(noise, -1.0f);
+    REFUSE(noise, 64.1f);
+    REFUSE(noise, NAN);
     REFUSE(sigma, INFINITY);
     REFUSE(sigma, 0.0f);
     rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
@@ -168,6 +171,31 @@ static void test_places(void **state) {
         }
     }
     test_picture_free(&made);
+}
+
+/* A sky with noise of 3 grey levels has no point, unless any response will do. */
+static void test_a_plain_sky(void **state) {
+    (void)state;
+    static uint8_t pixels[3 * 200 * 150];
+    uint32_t random = 1;
+    for (size_t i = 0; i < sizeof pixels; i++) {
+        int sum = 0;
+        for (int k = 0; k < 12; k++) { /* of deviation 1 * 256, nearly normally distributed */
+            random = random * 1664525u + 1013904223u;
+            sum += (int)(random >> 24);
+        }
+        pixels[i] = (uint8_t)(180 + (sum - 12 * 128) * 3 / 256);
+    }
+    const rlvc_picture sky[2] = {{pixels, 3 * 200, 200, 150, RLVC_PICTURE_RGB},
+                                 {pixels, 200, 200, 150, RLVC_PICTURE_GREY}};
+    for (uint32_t i = 0; i < 2u; i++) {
+        rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
+        look_once(&config, NULL, &sky[i], &a);
+        assert_int_equal(a.count, 0);
+        config.noise = 0.0f;
+        look_once(&config, NULL, &sky[i], &a);
+        assert_int_equal(a.count, config.points);
+    }
 }
 
 static void test_length_is_one(void **state) {
@@ -460,6 +488,7 @@ int main(void) {
         cmocka_unit_test(test_configs_refused),
         cmocka_unit_test(test_record),
         cmocka_unit_test(test_places),
+        cmocka_unit_test(test_a_plain_sky),
         cmocka_unit_test(test_length_is_one),
         cmocka_unit_test(test_int8_loses_nothing_of_sift_and_orb),
         cmocka_unit_test(test_formats_agree),

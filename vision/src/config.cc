@@ -51,6 +51,11 @@ void check_share(const char *field, float value, float below) {
         refuse(field, value, 0, " or more, and less than ", below, "");
 }
 
+void check_noise(float value) {
+    if (!(value >= 0 && value <= 64))
+        refuse("noise", value, 0, " to ", 64, " grey levels");
+}
+
 } // namespace
 
 void check(const rlvc_vision_config &config) {
@@ -68,6 +73,7 @@ void check(const rlvc_vision_config &config) {
     const bool sift = config.descriptor == RLVC_DESCRIPTOR_SIFT ||
                       config.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
     check_scale("sigma", config.sigma, sift ? 1 : 0.5f, 8);
+    check_noise(config.noise);
 }
 
 } // namespace rlvc
@@ -122,6 +128,7 @@ rlvc_vision_status rlvc_vision_config_default(uint32_t descriptor, rlvc_vision_c
     config->k = 0.04f;
     config->threshold = 0.001f;
     config->sigma = known[descriptor].sigma;
+    config->noise = 3;
     return RLVC_VISION_OK;
 }
 

@@ -197,6 +197,23 @@ void Harris::keep_strongest(size_t count) {
     points_.resize(count);
 }
 
+// Above nearly all responses of noise of deviation config_.noise. The tensor of noise is about
+// W S noise^2 times the unit matrix, where W is the channels' weight and S what a derivative makes
+// of unit noise; it varies about that, and so does H, whose mean is (1 - 4 k) times the square.
+float Harris::noise_response() const {
+    constexpr float spread = 8;
+    float smooth = 0, derive = 0, weight = 0;
+    for (int j = -derivative_.radius; j <= derivative_.radius; j++) {
+        const auto at = static_cast<size_t>(std::abs(j));
+        smooth += derivative_.smooth[at] * derivative_.smooth[at];
+        derive += derivative_.derive[at] * derivative_.derive[at];
+    }
+    for (int c = 0; c < picture_.channels; c++)
+        weight += weight_[c];
+    const float tensor = weight * smooth * derive * config_.noise * config_.noise;
+    return spread * (1 - 4 * config_.k) * tensor * tensor;
+}
+
 const std::vector<rlvc_point> &Harris::find(const Picture &picture, const float *gain) {
     start(picture, gain);
     const int radius = static_cast<int>(config_.radius);
@@ -206,7 +223,7 @@ const std::vector<rlvc_point> &Harris::find(const Picture &picture, const float 
         if (y >= radius)
             collect_peaks(y - radius);
     }
-    const float least = config_.threshold * strongest_;
+    const float least = std::max(config_.threshold * strongest_, noise_response());
     points_.erase(std::remove_if(points_.begin(), points_.end(),
                                  [least](const rlvc_point &p) { return p.response <= least; }),
                   points_.end());

@@ -55,6 +55,7 @@ class Harris {
     void collect_peaks(int y);
     bool is_peak(int x, int y);
     void keep_strongest(size_t count);
+    float noise_response() const;
 
     rlvc_vision_config config_;
     const RowPasses &passes_;

@@ -80,7 +80,8 @@ json json_of(const rlvc_vision_config &config) {
             {"si", config.si},
             {"k", config.k},
             {"threshold", config.threshold},
-            {"sigma", config.sigma}};
+            {"sigma", config.sigma},
+            {"noise", config.noise}};
 }
 
 uint8_t byte(const json &object, const char *key) {
@@ -108,6 +109,7 @@ rlvc_vision_config config_of(const json &object) {
     config.k = real(object, "k", any);
     config.threshold = real(object, "threshold", any);
     config.sigma = real(object, "sigma", any);
+    config.noise = object.contains("noise") ? real(object, "noise", any) : 0; // of an older version
     try {
         check(config);
     } catch (const Failure &failure) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "objects.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include "picture_file.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -23,17 +22,16 @@ struct File {
     fs::path path;
 };
 
+// The pictures in a folder and below it, in the order of their paths.
 std::vector<fs::path> list_folder(const std::string &folder) {
     std::vector<fs::path> paths;
     std::error_code error;
-    for (const fs::directory_entry &entry : fs::directory_iterator(folder, error)) {
-        static const std::set<std::string> suffixes{".png", ".jpg", ".jpeg", ".bmp",
-                                                    ".ppm", ".pgm", ".tif",  ".tiff"};
-        std::string suffix = entry.path().extension().string();
-        std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        if (suffixes.count(suffix) && entry.path().filename().string().front() != '.') {
-            paths.push_back(entry.path());
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+         at.increment(error)) {
+        if (at->is_directory() && at->path().filename().string().front() == '.') {
+            at.disable_recursion_pending();
+        } else if (!at->is_directory() && is_picture_name(at->path())) {
+            paths.push_back(at->path());
         }
     }
     if (error) {
@@ -46,49 +44,36 @@ std::vector<fs::path> list_folder(const std::string &folder) {
     return paths;
 }
 
-// COIL-100's names if any file has such a one: the others are then left alone.
+// Each folder an object, its pictures numbered in order.
+std::vector<File> number_files(const std::vector<fs::path> &paths) {
+    std::vector<File> files;
+    long number = -1;
+    int angle = 0;
+    for (const fs::path &path : paths) {
+        const bool next = files.empty() || files.back().path.parent_path() != path.parent_path();
+        number += next;
+        angle = next ? 0 : angle + 1;
+        files.push_back({number, path.parent_path().filename().string(), angle, path});
+    }
+    return files;
+}
+
+// COIL-100's names if any file has such a one, else the files of the folder itself, else those of
+// the folders in it: the others are then left alone.
 std::vector<File> find_files(const std::string &folder) {
-    std::vector<File> named, others;
-    for (const fs::path &path : list_folder(folder)) {
+    const std::vector<fs::path> paths = list_folder(folder);
+    std::vector<File> named, own;
+    for (const fs::path &path : paths) {
         int number = 0, angle = 0, dot = 0;
         const std::string name = path.filename().string();
         if (std::sscanf(name.c_str(), "obj%6d__%3d%n", &number, &angle, &dot) == 2 && number >= 0 &&
             angle >= 0 && name[static_cast<std::size_t>(dot)] == '.') {
             named.push_back({number, "obj" + std::to_string(number), angle % 360, path});
-        } else {
-            others.push_back(
-                {static_cast<long>(others.size()), path.stem().string(), any_angle, path});
+        } else if (fs::path(folder) / name == path) {
+            own.push_back({static_cast<long>(own.size()), path.stem().string(), any_angle, path});
         }
     }
-    return named.empty() ? others : named;
-}
-
-cv::Mat read_picture(const fs::path &path) {
-    cv::Mat picture;
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) {
-        throw std::runtime_error(path.string() + ": not a regular file"); // a FIFO would wait
-    }
-    if (fs::file_size(path, error) == 0 && !error) {
-        throw std::runtime_error(path.string() + ": an empty file");
-    }
-    try {
-        picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception &) {
-        picture.release();
-    }
-    if (picture.empty()) {
-        throw std::runtime_error(path.string() + ": not a picture that can be read");
-    }
-    if (picture.depth() != CV_8U) {
-        throw std::runtime_error(path.string() + ": a picture of 8 bits a channel is wanted");
-    }
-    if (picture.channels() == 4) {
-        cv::cvtColor(picture, picture, cv::COLOR_BGRA2BGR);
-    } else if (picture.channels() != 1 && picture.channels() != 3) {
-        throw std::runtime_error(path.string() + ": neither grey nor colour");
-    }
-    return picture;
+    return !named.empty() ? named : !own.empty() ? own : number_files(paths);
 }
 
 // What all pictures have in common with the first: a picture of another size, or a grey one among
@@ -117,7 +102,8 @@ std::vector<Object> render_objects(const std::set<int> &angles, std::size_t coun
     return objects;
 }
 
-std::vector<Object> read_objects(const std::string &folder, const std::set<int> &angles) {
+std::vector<Object> read_objects(const std::string &folder, const std::set<int> &angles,
+                                 const Reading &reading) {
     std::map<std::pair<long, std::string>, Object> all;
     const std::vector<File> files = find_files(folder);
     if (files.front().angle == any_angle && angles != std::set<int>{0}) {
@@ -128,7 +114,7 @@ std::vector<Object> read_objects(const std::string &folder, const std::set<int> 
     for (const File &file : files) {
         const int angle = file.angle == any_angle ? 0 : file.angle;
         if (angles.count(angle)) {
-            const cv::Mat picture = read_picture(file.path);
+            const cv::Mat picture = read_picture(file.path, reading);
             if (first.empty()) {
                 first = picture;
             }
@@ -150,14 +136,22 @@ std::vector<Object> read_objects(const std::string &folder, const std::set<int> 
 } // namespace
 
 std::vector<Object> find_objects(const std::string &folder, const std::vector<int> &angles,
-                                 std::size_t wanted) {
+                                 std::size_t wanted, const Reading &reading) {
     const std::set<int> all(angles.begin(), angles.end());
     std::vector<Object> objects =
-        folder.empty() ? render_objects(all, wanted) : read_objects(folder, all);
+        folder.empty() ? render_objects(all, wanted) : read_objects(folder, all, reading);
     if (objects.size() < wanted) {
         throw std::runtime_error(std::to_string(wanted) + " are wanted, and '" + folder +
                                  "' has only " + std::to_string(objects.size()) +
                                  " objects that are there from all sides wanted");
     }
     return objects;
+}
+
+std::vector<cv::Mat> find_pictures(const std::string &folder) {
+    std::vector<cv::Mat> pictures;
+    for (const fs::path &path : list_folder(folder)) {
+        pictures.push_back(read_picture(path, {}));
+    }
+    return pictures;
 }

@@ -609,7 +609,7 @@ class VisionConfig(c.Structure):
         ("descriptor", c.c_uint32), ("points", c.c_uint32), ("radius", c.c_uint32),
         ("form", c.c_uint8), ("normalise", c.c_uint8), ("axes", c.c_uint8),
         ("places", c.c_uint8), ("sd", c.c_float), ("si", c.c_float), ("k", c.c_float),
-        ("threshold", c.c_float), ("sigma", c.c_float),
+        ("threshold", c.c_float), ("sigma", c.c_float), ("noise", c.c_float),
     ]
 
 
@@ -848,7 +848,8 @@ VISION: Functions = {
 
 OBJECTS: Functions = {
     "rlvc_shim_objects_find": (c.c_int, [
-        c.c_void_p, c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_size_t,
+        c.c_void_p, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p,
+        c.c_void_p, c.c_size_t,
     ]),
     "rlvc_shim_objects_size": (None, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_shim_objects_name": (c.c_char_p, [c.c_void_p, c.c_uint32]),

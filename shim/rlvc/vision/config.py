@@ -55,6 +55,9 @@ class VisionConfig:
         The smallest response of a point, as a fraction of the picture's largest, [0, 1).
     sigma : float or None
         In pixels: the scale of the descriptor, [0.5, 8], for SIFT [1, 8]. None: 2.5, SIFT 6, ORB 5.
+    noise : float
+        In grey levels, [0, 64]: responses as noise of this standard deviation has them are not
+        points.
 
     Raises
     ------
@@ -74,6 +77,7 @@ class VisionConfig:
     k: float = 0.04
     threshold: float = 0.001
     sigma: float | None = None
+    noise: float = 3.0
 
     def __post_init__(self) -> None:
         native = self.native()
@@ -106,6 +110,7 @@ class VisionConfig:
             "k",
             "threshold",
             "sigma",
+            "noise",
         ):
             value = getattr(self, name)
             whole = {"points": 2**32, "radius": 2**32, "axes": 2**8}.get(name)
@@ -123,7 +128,7 @@ class VisionConfig:
     def of(cls, native: _native.VisionConfig) -> VisionConfig:
         """Return the config of a C struct."""
         fields = {field.name: getattr(native, field.name) for field in dataclasses.fields(cls)}
-        for name in ("sd", "si", "k", "threshold", "sigma"):
+        for name in ("sd", "si", "k", "threshold", "sigma", "noise"):
             fields[name] = float(str(np.float32(fields[name])))  # 0.04, not 0.03999999910593033
         fields["descriptor"] = DESCRIPTORS[native.descriptor]
         fields["form"] = FORMS[native.form]

@@ -5,6 +5,7 @@
 #include "../cli/interrupt.h"
 
 #include "opencv_picture.h"
+#include "scenery.h"
 
 #include <algorithm>
 #include <ctime>
@@ -154,12 +155,14 @@ void Gallery::index(const Sight &sight) {
 
 void Gallery::extract(const TiledOptions &options,
                       const std::function<void(const std::string &)> &progress) {
+    const Scenery scenery(options);
     const std::vector<int> &held = options.test_poses.empty() ? options.poses : options.test_poses;
     std::mt19937 random(options.seed);
     double seconds = 0.0;
     std::size_t pictures = 0;
-    const auto see = [&](uint32_t object, int angle) {
-        const cv::Mat picture = disturb(objects_[object].views.at(angle), options, random);
+    const auto see = [&](uint32_t object, int angle, bool test) {
+        const cv::Mat picture =
+            disturb(scenery.set(objects_[object].views.at(angle), test, random), options, random);
         const std::clock_t start = std::clock();
         Sight sight = look(object, angle, picture);
         seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -176,11 +179,11 @@ void Gallery::extract(const TiledOptions &options,
                  std::to_string(objects_.size()));
         for (uint32_t copy = 0; copy < options.copies; copy++) {
             for (const int angle : options.poses) {
-                seen_[i].push_back(see(i, angle));
+                seen_[i].push_back(see(i, angle, false));
                 index(seen_[i].back());
             }
             for (const int angle : held) {
-                held_out_[i].push_back(see(i, angle));
+                held_out_[i].push_back(see(i, angle, true));
             }
         }
     }

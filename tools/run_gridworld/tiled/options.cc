@@ -69,10 +69,18 @@ void add_angles(CLI::App &app, const std::string &name, std::vector<int> &into, 
 }
 
 void add_world(CLI::App &app, TiledOptions &options) {
-    app.add_option("--images", options.images,
-                   "pictures objN__ANGLE.* as of COIL-100, or a file an object (built-in)")
+    app.add_option(
+           "--images", options.images,
+           "pictures objN__ANGLE.* as of COIL-100, a file an object, or a folder an object, "
+           "whose pictures are poses 0, 1, ... (built-in)")
         ->type_name("DIR")
         ->check(file_name());
+    add_whole(app, "--resize", options.side, 8, 4096,
+              "scale pictures to N x N (all of one size as they are)");
+    app.add_flag_callback(
+           "--scale-depth", [&options] { options.reading.scale_depth = true; },
+           "scale pictures of 16 bits a channel to 8")
+        ->disable_flag_override();
     app.add_option("--maze", options.maze, "small (10 cells), sutton (46), or a file (sutton)")
         ->type_name("MAZE")
         ->check(file_name());
@@ -83,8 +91,21 @@ void add_world(CLI::App &app, TiledOptions &options) {
     add_number(app, "--noise", options.noise, 0, 255, "standard deviation in grey levels (0)");
     add_number(app, "--blur", options.blur, 0, 100, "standard deviation in pixels (0)");
     add_whole(app, "--jpeg", options.jpeg, 1, 100, "compress with this quality (no compression)");
+    app.add_option("--backgrounds", options.backgrounds,
+                   "cut objects out of a plain background and show them before parts of these "
+                   "pictures (as they are)")
+        ->type_name("DIR")
+        ->check(file_name());
+    app.add_option("--test-backgrounds", options.test_backgrounds,
+                   "in the test before parts of these (those of --backgrounds)")
+        ->type_name("DIR")
+        ->check(file_name());
+    add_number(app, "--cover", options.cover, 0, 0.9f,
+               "cover up to this share of each picture (0)");
+    add_number(app, "--test-cover", options.test_cover, 0, 0.9f,
+               "in the test cover just this share (as --cover)");
     add_whole(app, "--copies", options.copies, 1, 1000,
-              "pictures of each view, if light or noise varies (8)");
+              "pictures of each view, if light, noise, background or cover varies (8)");
 }
 
 void add_seeing(CLI::App &app, TiledOptions &options) {
@@ -115,6 +136,7 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
 void settle(TiledOptions &options) {
     settle_schedule(options, options.returns() ? returns_schedule : residual_schedule);
     options.runs = std::max(options.runs, 1u);
+    options.reading.width = options.reading.height = static_cast<int>(options.side);
     if (options.alpha == 0.0f) {
         options.alpha = default_alpha;
     }
@@ -123,7 +145,12 @@ void settle(TiledOptions &options) {
                           options.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
         options.sigma = sift ? sift_sigma : other_sigma;
     }
-    if (options.light == 0.0f && options.noise == 0.0f) {
+    if (options.test_backgrounds.empty()) {
+        options.test_backgrounds = options.backgrounds;
+    }
+    const bool scenery =
+        !options.test_backgrounds.empty() || options.cover > 0.0f || options.test_cover > 0.0f;
+    if (options.light == 0.0f && options.noise == 0.0f && !scenery) {
         options.copies = 1; // they would all be the same
     }
 }

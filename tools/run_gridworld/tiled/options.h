@@ -5,16 +5,22 @@
 
 #include "../cli/learning_options.h"
 
+#include "objects/objects.h"
+
 struct TiledOptions : LearningOptions {
     // The world.
     std::string images; // a folder; empty: the built-in objects
+    uint32_t side = 0;  // to which they are scaled; 0: as they are
+    Reading reading;    // of these
     std::string maze = "sutton";
-    std::vector<int> poses{0}, test_poses; // degrees, [0, 360)
-    float light = 0.0f;                    // a picture's light varies by +- this share
-    float noise = 0.0f;                    // standard deviation, in grey levels
-    float blur = 0.0f;                     // standard deviation, in pixels
-    uint32_t jpeg = 0;                     // quality; 0: not compressed
-    uint32_t copies = 8;                   // pictures of each view, if they differ at all
+    std::vector<int> poses{0}, test_poses;     // degrees, [0, 360)
+    float light = 0.0f;                        // a picture's light varies by +- this share
+    float noise = 0.0f;                        // standard deviation, in grey levels
+    float blur = 0.0f;                         // standard deviation, in pixels
+    uint32_t jpeg = 0;                         // quality; 0: not compressed
+    uint32_t copies = 8;                       // pictures of each view, if they differ at all
+    std::string backgrounds, test_backgrounds; // folders; empty: pictures as they are
+    float cover = 0.0f, test_cover = -1.0f;    // share of a picture; below 0: as in learning
 
     // Seeing.
     uint8_t descriptor = 0; // RLVC_DESCRIPTOR_*

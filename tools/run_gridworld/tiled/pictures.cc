@@ -10,7 +10,7 @@ std::vector<Object> find_objects(const TiledOptions &options, uint32_t wanted) {
     std::vector<int> angles = options.poses;
     angles.insert(angles.end(), options.test_poses.begin(), options.test_poses.end());
     try {
-        return find_objects(options.images, angles, wanted);
+        return find_objects(options.images, angles, wanted, options.reading);
     } catch (const std::runtime_error &error) {
         throw Failure(std::string("--images: ") + error.what());
     }

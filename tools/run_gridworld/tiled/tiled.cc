@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 //     options    the command line                 pictures   the objects in the cells
+//     scenery    what is behind and before them
 //     gallery    their percepts, by the vision module
 //     learner    one run                          report     what is shown and written
 #include "tiled.h"

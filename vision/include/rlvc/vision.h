@@ -116,6 +116,8 @@ typedef struct rlvc_vision_config {
                            Gaussian derivatives, or SIFT's own (its window is 12 sigma wide); ORB's
                            window is fixed, and only its direction is taken at this scale. Default
                            2.5, SIFT 6, ORB 5 */
+    float noise;     /* grey levels: what noise of this standard deviation makes is no point, so
+                           that a plain sky has none, [0, 64]. Default 3 */
 } rlvc_vision_config;
 
 /* Fills *config with the defaults for a descriptor. O(1).
