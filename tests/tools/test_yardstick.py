@@ -284,6 +284,14 @@ def test_fitted_q_iteration_grows_a_tree():
     assert task.world.evaluate(actions) > 0.5
 
 
+def test_the_cross_entropy_method_balances_the_pole():
+    task = dataclasses.replace(tasks.TASKS["cartpole"](), interactions=2000)
+    looked = []
+    learners.LEARNERS["cem"].learn(task, 1, lambda done, act: looked.append((done, act)))
+    assert looked[-1][0] >= 10 * task.interactions
+    assert task.look(looked[-1][1], 0).value > 150
+
+
 def test_a_record_of_a_change(monkeypatch):
     task = tasks.TASKS["changing"]()
 

@@ -30,7 +30,9 @@ LEARNERS = {
     "q": "Q-learning, sees the state",
     "q-raw": "Q-learning on the raw bits",
     "fqi": "fitted Q iteration, extra trees",
+    "cem": "linear policy by the cross-entropy method",
     "dqn": "DQN",
+    "ppo": "PPO",
 }
 
 
@@ -66,7 +68,7 @@ def parse(arguments=None):
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Learns every task with many seeds and one configuration, and prints a table:\n"
         "return, interactions, leaves, seconds and bytes. Below it stands whether rlvc meets each\n"
-        "bar. Installs what rlvc needs (tools/setup yardstick); fqi and dqn need tools/setup peers.",
+        "bar. Installs what rlvc needs (tools/setup yardstick); fqi, dqn and ppo need tools/setup peers.",
         epilog=f"Tasks:\n{tasks}\n\n"
         "Learners (rlvc sees bits with distractors among them; a learner that sees the state\n"
         f"does not have to find the useful bits):\n{learners}\n\n"
@@ -80,7 +82,7 @@ def parse(arguments=None):
     parser.add_argument("--tasks", type=_names(TASKS), default=list(TASKS), metavar="A,B",
                         help="which tasks (default all)")
     parser.add_argument("--learners", type=_names(LEARNERS), default=list(LEARNERS), metavar="A,B",
-                        help="which learners (default all; fqi and dqn take an hour)")
+                        help="which learners (default all; fqi, dqn and ppo take hours)")
     parser.add_argument("--jobs", type=_count, default=os.cpu_count(), metavar="N",
                         help="runs at the same time (default: the number of processors)")
     parser.add_argument("--json", metavar="FILE", help="write the figures of every run to a file")

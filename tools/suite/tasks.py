@@ -218,7 +218,7 @@ def _by(interactions, wanted):
     return share(good)
 
 
-def _control(name, make, play, interactions, wanted, bars, peers=()):
+def _control(name, make, play, interactions, wanted, bars, peers=("cem", "dqn", "ppo")):
     def look(act, done):
         value = play(act, EPISODES)
         return Look(value, None, value >= wanted)
@@ -237,7 +237,7 @@ def cartpole():
         Bar("leaves, median", median("compacted"), 5),
     )
     make = functools.partial(gymnasium.make, "CartPole-v1")
-    return _control("cartpole", make, controls.balance, 20000, 475, bars, ("fqi", "dqn"))
+    return _control("cartpole", make, controls.balance, 20000, 475, bars, ("fqi", "cem", "dqn", "ppo"))
 
 
 def _noisy_pole(name, wanted, **noise):

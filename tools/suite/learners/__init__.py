@@ -31,6 +31,11 @@ class Learner:
                 if not importlib.util.find_spec(module)]  # fmt: skip
 
 
+_BASELINES3 = {
+    "torch": "python3-torch", "pandas": "python3-pandas", "matplotlib": "python3-matplotlib",
+    "stable_baselines3": "stable-baselines3",
+}  # fmt: skip
+
 LEARNERS = {
     "rlvc": Learner("rlvc"),
     "fqi-rlvc": Learner(
@@ -48,8 +53,16 @@ LEARNERS = {
     "fqi": Learner("fitted_q", "on random actions, 50 trees, 50 rounds at the end of the run", {
         "sklearn": "python3-sklearn",
     }),
-    "dqn": Learner("dqn", "Stable-Baselines3's, with its defaults but the discount", {
-        "torch": "python3-torch", "pandas": "python3-pandas", "matplotlib": "python3-matplotlib",
-        "stable_baselines3": "stable-baselines3",
-    }),
+    "cem": Learner(
+        "cross_entropy", "50 policies a round, of which 10 stay; ten times the interactions",
+        settings={"times": 10},
+    ),
+    "dqn": Learner(
+        "baselines3", "Stable-Baselines3's, with its defaults but the discount", _BASELINES3,
+        {"algorithm": "DQN"},
+    ),
+    "ppo": Learner(
+        "baselines3", "Stable-Baselines3's, likewise; ten times the interactions", _BASELINES3,
+        {"algorithm": "PPO", "times": 10},
+    ),
 }  # fmt: skip
