@@ -312,6 +312,34 @@ static void test_many_terms(void **state) {
             assert_true(fabsf(planner->model->tree[k].coefficient[i]) < 100.0f);
 }
 
+/* What acts at any percept is what acts in the next episode. */
+static void test_acting_at_any_percept(void **state) {
+    (void)state;
+    rlvc_planner_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    float s[2] = {0.0f, 0.0f}, far[2] = {0.0f, 2e9f};
+    uint32_t action, other, count[SLIDER_ACTIONS] = {0};
+    player p;
+    for (uint32_t i = 0; i < 300; i++) { /* at random, before there is a policy */
+        assert_int_equal(rlvc_planner_act_at(planner, s, &action), RLVC_OK);
+        count[action]++;
+    }
+    assert_true(count[0] > 60 && count[1] > 60 && count[2] > 60);
+    start(&p, planner, 5);
+    play(&p, 900);
+    for (uint32_t i = 0; i < 20; i++) {
+        s[0] = 0.1f * (float)i - 1.0f;
+        assert_int_equal(rlvc_planner_act_at(planner, s, &action), RLVC_OK);
+        assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+        assert_int_equal(rlvc_planner_act(planner, &other), RLVC_OK);
+        assert_int_equal(action, other);
+    }
+    assert_int_equal(rlvc_planner_act_at(NULL, s, &action), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act_at(planner, NULL, &action), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act_at(planner, s, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act_at(planner, far, &action), RLVC_E_RANGE);
+}
+
 /* Where an episode never ends, a horizon's interactions are one. */
 static void test_endless_episodes(void **state) {
     (void)state;
@@ -680,6 +708,7 @@ int main(void) {
         cmocka_unit_test(test_searches_pause),
         cmocka_unit_test(test_a_long_exploration),
         cmocka_unit_test(test_many_terms),
+        cmocka_unit_test(test_acting_at_any_percept),
         cmocka_unit_test(test_endless_episodes),
         cmocka_unit_test(test_nothing_to_learn_is_said),
         cmocka_unit_test(test_equally_good_is_learnt),

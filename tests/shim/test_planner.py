@@ -377,10 +377,48 @@ def test_what_a_planner_does_not_learn():
     with pytest.raises(errors.ConfigError, match="64 components"):
         rlvc.learn(wide, 100, method="planner")
     vector = gymnasium.vector.SyncVectorEnv([Drift, Drift])
-    with pytest.raises(errors.ConfigError, match="vector"):
-        rlvc.learn(vector, 100)
     run = rlvc.learn(vector, 200, seed=1, method="classes")
     assert run.agent.statistics.interactions == 200
+
+
+@pytest.mark.parametrize("mode", list(gymnasium.vector.AutoresetMode))
+def test_environments_side_by_side(mode):
+    limits = (50, 30, 17)  # so that episodes end at different times
+    vector = gymnasium.vector.SyncVectorEnv(
+        [lambda limit=limit: Drift(limit) for limit in limits], autoreset_mode=mode
+    )
+    run = rlvc.learn(vector, 1500, seed=1)
+    s = run.planner.statistics
+    assert s.episodes > 20 and s.searches > 3 and s.verdict == "learnt"
+    assert 1300 < s.interactions <= 1500  # some episodes were cut off
+    assert run.evaluate(Drift(), 20).mean > -40
+    again = rlvc.learn(vector, 1500, seed=1)
+    assert again.text() == run.text()
+
+
+def test_a_horizon_side_by_side():
+    vector = gymnasium.vector.SyncVectorEnv([lambda: Drift(10**6)] * 2)  # endless
+    run = rlvc.learn(vector, 1000, seed=1, horizon=40)
+    assert run.planner.statistics.episodes >= 20
+    masked = gymnasium.vector.SyncVectorEnv([Masked] * 2)
+    run = rlvc.learn(masked, 600, seed=1)
+    assert {run.act(np.array([x, 0], F32)) for x in (-2, 2)} <= {5, 6}
+
+
+class Masked(Drift):
+    """Drift, which forbids the second action at the left end."""
+
+    def info(self):
+        return {"action_mask": np.array([1, self.at < 2], np.int8)}
+
+    def reset(self, *, seed=None, options=None):
+        x, _ = super().reset(seed=seed)
+        return x, self.info()
+
+    def step(self, action):
+        assert self.info()["action_mask"][action - 5]
+        x, *rest, _ = super().step(action)
+        return x, *rest, self.info()
 
 
 def test_bits_beside_real_numbers():

@@ -105,6 +105,13 @@ RLVC_API rlvc_status rlvc_planner_begin(rlvc_planner *planner, const float *perc
  * @return RLVC_OK; RLVC_E_ORDER: no current percept. */
 RLVC_API rlvc_status rlvc_planner_act(rlvc_planner *planner, uint32_t *action);
 
+/* The action at any percept, by the policy that acts in the next episode: for episodes in several
+ * worlds at once, each of which is observed when it has ended, by rlvc_planner_begin and
+ * rlvc_planner_observe, before the next step of learning. O(depth).
+ * @return RLVC_OK; RLVC_E_RANGE: the percept. */
+RLVC_API rlvc_status rlvc_planner_act_at(rlvc_planner *planner, const float *percept,
+                                         uint32_t *action);
+
 /* Stores what came of an action at the current percept. O(components), and O(components^2) in an
  * episode that explores.
  * @param next [components] s', copied; also where the episode is terminated

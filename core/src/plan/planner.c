@@ -123,18 +123,22 @@ static int is_percept(const rlvc_planner *planner, const float *percept) {
     return 1;
 }
 
-/* Which policy acts in the episode: the one that was chosen last, or the best while that is being
- * chosen. */
-static void choose_acting(rlvc_planner *planner) {
-    rlvc_acting *acting = &planner->acting;
-    if (!planner->learning) {
-        *acting = planner->next;
-    } else if (planner->archive.count > 0) {
+/* Which policy acts in the next episode: the one that was chosen last, or the best while that is
+ * being chosen; while there is none, the one that acts now. */
+static void choose_acting(const rlvc_planner *planner, rlvc_acting *acting) {
+    *acting = planner->learning ? planner->acting : planner->next;
+    if (planner->learning && planner->archive.count > 0) {
         acting->trial = rlvc_archive_best(&planner->archive, 0.5f);
         acting->tree = planner->archive.trial[acting->trial].tree;
         acting->serial = planner->archive.trial[acting->trial].serial;
         acting->why = RLVC_PLANNER_AGAIN;
     }
+}
+
+static uint32_t action_of(rlvc_planner *planner, const rlvc_acting *acting, const float *percept) {
+    return acting->why == RLVC_PLANNER_RANDOM
+               ? rlvc_rng_below(&planner->rng, planner->config.actions)
+               : rlvc_small_tree_act(&acting->tree, percept);
 }
 
 /* Begins to count an episode. */
@@ -143,7 +147,9 @@ static void open_episode(rlvc_planner *planner, const float *percept) {
     planner->steps = 0;
     planner->earned = 0.0f;
     planner->new_cells = 0;
-    choose_acting(planner);
+    rlvc_acting acting;
+    choose_acting(planner, &acting);
+    planner->acting = acting;
 }
 
 rlvc_status rlvc_planner_begin(rlvc_planner *planner, const float *percept) {
@@ -169,10 +175,18 @@ rlvc_status rlvc_planner_act(rlvc_planner *planner, uint32_t *action) {
     if (!planner->open)
         return RLVC_E_ORDER;
     const float *s = rlvc_experience_percept(&planner->experience, planner->experience.head);
-    if (planner->acting.why == RLVC_PLANNER_RANDOM)
-        *action = rlvc_rng_below(&planner->rng, planner->config.actions);
-    else
-        *action = rlvc_small_tree_act(&planner->acting.tree, s);
+    *action = action_of(planner, &planner->acting, s);
+    return RLVC_OK;
+}
+
+rlvc_status rlvc_planner_act_at(rlvc_planner *planner, const float *percept, uint32_t *action) {
+    rlvc_acting acting;
+    if (!planner || !percept || !action)
+        return RLVC_E_NULL;
+    if (!is_percept(planner, percept))
+        return RLVC_E_RANGE;
+    choose_acting(planner, &acting);
+    *action = action_of(planner, &acting, percept);
     return RLVC_OK;
 }
 

@@ -336,7 +336,9 @@ static uint32_t search(rlvc_planner *planner, uint32_t budget) {
     return spent;
 }
 
-/* The candidate acts if its calibrated promise beats the best score. */
+/* The candidate acts if its calibrated promise beats the best score; and, the more often the less
+ * the models are trusted, if it falls short by no more than an episode's return may deviate: where
+ * they do not foresee what goes wrong their promises all look alike, and only trying tells. */
 static uint32_t try_candidate(rlvc_planner *planner) {
     rlvc_planning_cursor *planning = &planner->planning;
     rlvc_archive *archive = &planner->archive;
@@ -351,7 +353,8 @@ static uint32_t try_candidate(rlvc_planner *planner) {
     }
     least = bar < 0.0f ? -bar : bar;
     int gains = value > bar + MOVE_LEAST * least;
-    int near = value >= bar - 0.02f * least && rlvc_rng_uniform(&planner->rng) < 0.3f;
+    int near =
+        value >= bar - archive->deviation && rlvc_rng_uniform(&planner->rng) < 1.0f - archive->beta;
     if (rlvc_archive_flat(archive, planner->most))
         gains = 1;
     planner->failures = gains ? 0u : planner->failures + 1u;

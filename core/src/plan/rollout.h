@@ -10,9 +10,8 @@
  * is freed from it by random actions, and one that balances on a knife's edge is not shaken without
  * them.
  *
- * The random numbers of a step depend on the seed, the start and
- * the step alone, so that two policies meet the same luck (common random numbers), and however the
- * work is sliced. */
+ * The random numbers of a step depend on the seed, the start and the step alone, so that two
+ * policies meet the same luck (common random numbers), and however the work is sliced. */
 #ifndef RLVC_SRC_ROLLOUT_H
 #define RLVC_SRC_ROLLOUT_H
 

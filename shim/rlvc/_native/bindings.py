@@ -747,6 +747,7 @@ CORE: Functions = {
     "rlvc_planner_init": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
     "rlvc_planner_begin": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_act": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_act_at": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_planner_observe": (c.c_int, [c.c_void_p, c.c_uint32, c.c_float, c.c_void_p, c.c_uint8]),
     "rlvc_planner_learn": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
     "rlvc_planner_budget_min": (c.c_int, [c.c_void_p, c.c_void_p]),

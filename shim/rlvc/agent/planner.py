@@ -28,6 +28,7 @@ _SLICE = 1 << 22  # budget of a slice of learning, after which Ctrl-C is noticed
 
 _begin = _native.call.rlvc_planner_begin
 _act = _native.call.rlvc_planner_act
+_act_at = _native.call.rlvc_planner_act_at
 _observe = _native.call.rlvc_planner_observe
 _predict = _native.call.rlvc_planner_predict
 _byref = ctypes.byref
@@ -158,6 +159,28 @@ class Planner(Handle):
         status = _act(self._handle, self._answer)
         if status:
             self._fail(status)
+        return self._action.value
+
+    def act_at(self, percept: Percept) -> int:
+        """Choose an action for any percept, by the policy that acts in the next episode.
+
+        For episodes in several environments at once. Each is observed when it has ended, by
+        :meth:`begin` and :meth:`observe`, before the next step of learning.
+
+        Parameters
+        ----------
+        percept : bytes or ndarray of float32, [components]
+
+        Returns
+        -------
+        int
+
+        Raises
+        ------
+        PerceptError
+            The percept has the wrong size, dtype or shape, or an element out of range.
+        """
+        self._check_percept(_act_at(self._handle, self._pack(percept), self._answer))
         return self._action.value
 
     def observe(

@@ -18,7 +18,7 @@ from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
 from ..errors import ConfigError, Error
-from . import planning
+from . import planning, side_by_side
 from .actions import Actions, actions_of
 from .encode import Encoder
 from .environment import Environment
@@ -104,21 +104,14 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
         raise ConfigError(f"no such field: {error}") from None
 
 
-def _method(wanted: str | None, domain: Domain, stream: Environment, actions: int) -> str:
+def _method(wanted: str | None, domain: Domain, actions: int) -> str:
     """Choose the method: as wanted, or a planner where it can learn."""
     if wanted not in (None, *get_args(Method)):
         raise ConfigError(f"method: {wanted!r:.80} is not one of {', '.join(get_args(Method))}")
     why = planning.refusal(domain, actions)
     if wanted == "planner" and why:
         raise ConfigError(f"method: {why}")
-    if wanted == "classes" or why:
-        return "classes"
-    if stream.vector:
-        raise ConfigError(
-            "env: of real numbers a planner learns from one environment, not from a vector: pass "
-            "one, or choose the method 'classes'"
-        )
-    return "planner"
+    return "classes" if wanted == "classes" or why else "planner"
 
 
 def learn(
@@ -169,9 +162,10 @@ def learn(
         decision is one interaction.
     method : {"planner", "classes"} or None
         How to learn. classes: the loop of section 4.2.1, with an :class:`rlvc.Agent`. planner: an
-        :class:`rlvc.Planner`, which learns small trees on real numbers from one environment; it
-        learns after each episode, and uses neither ``every`` nor ``thresholds``. None: planner if
-        percepts are real numbers, at most 64, and there are 2 to 64 actions; else classes.
+        :class:`rlvc.Planner`, which learns small trees on real numbers; it learns after each episode
+        (from a vector after one of each environment), and uses neither ``every`` nor ``thresholds``.
+        None: planner if percepts are real numbers, at most 64, and there are 2 to 64 actions; else
+        classes.
     progress : bool
         Whether to show a progress bar with leaves, mean return and splits.
     callback : callable, sequence of callables, or None
@@ -194,8 +188,7 @@ def learn(
     SpaceError
         The actions are not finite, or the observations cannot be encoded.
     ConfigError
-        A field of the config, ``interactions``, ``every`` or ``method`` is out of range; or percepts
-        are real numbers, ``method`` is None and ``env`` is a vector.
+        A field of the config, ``interactions``, ``every`` or ``method`` is out of range.
     EnvError, RewardError, PerceptError
         The environment returned a value that Gymnasium's interface does not allow. The message
         names the interaction, the episode and the value.
@@ -213,7 +206,7 @@ def learn(
     calls = _callbacks(callback)
     stream = Environment(env)
     if run is not None:
-        _need_same(run, stream, [encoder, names, bins, method, *config.values()], hold)
+        _need_same(run, [encoder, names, bins, method, *config.values()], hold)
     else:
         actions = actions_of(stream.action_space, bins, hold)
         if encoder is None:
@@ -251,7 +244,7 @@ def _callbacks(callback: Any) -> list[Callable[[Run], object]]:
     return calls
 
 
-def _need_same(run: Run, stream: Environment, given: list[Any], hold: int) -> None:
+def _need_same(run: Run, given: list[Any], hold: int) -> None:
     """Raise ConfigError if a run cannot go on in an environment, or is given other settings."""
     if any(value is not None for value in given) or hold not in (1, run.actions.hold):
         raise ConfigError("run: it keeps its encoder, actions, method and config: leave them out")
@@ -259,8 +252,6 @@ def _need_same(run: Run, stream: Environment, given: list[Any], hold: int) -> No
         raise ConfigError("run: a policy by itself cannot learn on")
     if run.encoder is None:
         raise ConfigError("run: it learnt from percepts, and has no encoder for observations")
-    if stream.vector and isinstance(run.learner, Planner):
-        raise ConfigError("env: a planner learns from one environment, not from a vector")
 
 
 def _begun(
@@ -278,7 +269,7 @@ def _begun(
     domain = domain_of(encoder)
     fields = (actions.count, interactions, seed % 2**32, config)
     made: Agent | Planner
-    if _method(method, domain, stream, actions.count) == "planner":
+    if _method(method, domain, actions.count) == "planner":
         assert isinstance(domain, Thresholds)
         made = Planner(domain, planning.default_config(*fields))
     else:
@@ -300,7 +291,8 @@ def _explain(error: BaseException, run: Run, learner: Interaction) -> None:
 def _steps(run: Run, learner: Interaction) -> Iterator[int]:
     """Interact and learn; yield the number of splits of each learning step."""
     if isinstance(run.learner, Planner):
-        for _ in planning.episodes(run, learner):
+        method = side_by_side if learner.stream.vector else planning
+        for _ in method.episodes(run, learner):
             yield 0
         return
     for _ in collect(run, learner):
