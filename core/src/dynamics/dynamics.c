@@ -153,8 +153,8 @@ static void make_constant(rlvc_dynamics_fit_cursor *fit, rlvc_model_tree *tree) 
     tree->scale = 0.0f;
     tree->terms = 0;
     tree->leaves = 1;
+    memset(tree->node, 0, sizeof *tree->node);
     tree->node[0].test = RLVC_MODEL_LEAF;
-    tree->node[0].child = 0;
     memset(tree->leaf, 0, sizeof *tree->leaf);
     next_output(fit);
 }

@@ -20,6 +20,7 @@ static void open_node(rlvc_ending_fit_cursor *fit, uint32_t node) {
     fit->node = node;
     fit->gain[node] = 0.0f;
     fit->weight[0] = fit->weight[1] = fit->reward = 0.0f;
+    memset(fit->ending->node + node, 0, sizeof *fit->ending->node);
     fit->ending->node[node].component = RLVC_ENDING_LEAF;
     enter(fit, WEIGH);
 }

@@ -45,6 +45,13 @@ static uint32_t tests_of(const rlvc_basis *basis) {
     return basis->components + (basis->actions > 2u ? basis->actions : basis->actions - 1u);
 }
 
+/* A node becomes a leaf. Its cut means nothing, but is saved. */
+static void make_leaf(rlvc_model_node *node, uint32_t leaf) {
+    node->cut = 0.0f;
+    node->test = RLVC_MODEL_LEAF;
+    node->child = (uint16_t)leaf;
+}
+
 /* Begins a node, whose leaf holds the model to begin at. */
 static void open_node(rlvc_tree_fit_cursor *fit, uint32_t node) {
     fit->node = node;
@@ -65,8 +72,7 @@ void rlvc_tree_fit_begin(rlvc_tree_fit_cursor *fit, const rlvc_tree_fit_input *i
                  2.0f * rlvc_ln((float)(3u * in->basis->components + in->basis->actions));
     tree->terms = (uint16_t)in->terms;
     tree->leaves = 1;
-    tree->node[0].test = RLVC_MODEL_LEAF;
-    tree->node[0].child = 0;
+    make_leaf(tree->node, 0);
     for (uint32_t i = 0; i < rlvc_model_tree_stride(in->terms); i++)
         tree->coefficient[i] = space->x[i] = 0.0f;
     space->node[0].first = 0;
@@ -295,9 +301,8 @@ static void make_children(rlvc_tree_fit_cursor *fit) {
     uint32_t leaf = node->child, fresh = tree->leaves++;
     memcpy(rlvc_model_tree_coefficients(tree, fresh), rlvc_model_tree_coefficients(tree, leaf),
            rlvc_model_tree_stride(fit->in.terms) * sizeof(float));
-    tree->node[fit->nodes].test = tree->node[fit->nodes + 1u].test = RLVC_MODEL_LEAF;
-    tree->node[fit->nodes].child = (uint16_t)leaf;
-    tree->node[fit->nodes + 1u].child = (uint16_t)fresh;
+    make_leaf(tree->node + fit->nodes, leaf);
+    make_leaf(tree->node + fit->nodes + 1u, fresh);
     node->test = known->test;
     node->cut = known->cut;
     node->child = (uint16_t)fit->nodes;
