@@ -32,7 +32,7 @@ def bits_of_log(log: Log) -> int:
     if values.dtype != np.bool_ or values.ndim != 2:
         raise LogError(
             f"{log.where}: observations: {values.dtype}{list(values.shape)}, not bits: convert the log "
-            "with rlvc.fleet.convert(..., thresholds=...)"
+            "with rlvc.fleet.convert and an encoder to bits"
         )
     return int(values.shape[1])
 
