@@ -14,7 +14,7 @@ EXAMPLES = sorted((ROOT / "examples").glob("[0-9][0-9]_*.py"))
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example(example, tmp_path):
-    if "tiled" in example.stem and without_vision():
+    if ("tiled" in example.stem or "grasp" in example.stem) and without_vision():
         pytest.skip(without_vision())
     if "fleet" in example.stem:
         pytest.importorskip("ray")
@@ -37,6 +37,8 @@ def test_example(example, tmp_path):
     if "tiled_figures" in example.stem:
         assert {"tiles.png", "tiles.svg", "features.png", "features.svg"} == drawn
         assert float(done.stdout.split()[2]) >= 95
+    if "grasp" in example.stem:
+        assert done.stdout.splitlines()[-1].endswith("held-out grasps: 1.000")
     if "lake" in example.stem:
         assert float(done.stdout.split("mean return:")[1]) >= 0.7
     if "fleet" in example.stem:
