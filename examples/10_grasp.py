@@ -6,9 +6,9 @@
 
 An episode is one look and one try. The actions are a grid of three openings and three heights; a try
 earns 1 if the hand is neither too narrow nor too wide for the thing, and at the height of its middle,
-else 0. Nothing says what the thing is. Things are seen from 0 and +-20 degrees while learning, and tried
-from +-10. PICTURES is a folder such as that of COIL-100; without it, or if it is "", things are rendered.
-SEED chooses the things and the tries. Needs a package that was made where OpenCV is.
+else 0. Nothing says what the thing is. Things are seen from 0 and +-20 degrees while learning, and
+tried from +-10. PICTURES is a folder such as that of COIL-100; without it, or if it is "", things are
+rendered. SEED chooses the things and the tries. Needs a package that was made where OpenCV is.
 """
 
 import sys
