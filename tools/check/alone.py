@@ -42,9 +42,9 @@ ARDUINO = "-std=gnu11 -Os -w -ffunction-sections -fdata-sections"
 
 TARGETS = (
     Target("x86-64, gcc", "gcc", orders=True),
-    Target("x86-64 with FMA, gcc", "gcc", "-O3 -march=haswell", "qemu-x86_64 -cpu max"),
+    Target("x86-64 with FMA, gcc", "gcc", "-O2 -march=haswell", "qemu-x86_64 -cpu max"),
     Target("x86-64, gcc 11", "gcc-11", "-O1"),
-    Target("x86-64 with FMA, clang", "clang", "-O2 -march=haswell", "qemu-x86_64 -cpu max"),
+    Target("x86-64 with FMA, clang", "clang", "-O1 -march=haswell", "qemu-x86_64 -cpu max"),
     Target("x86-64, clang 19", "clang-19", "-Os"),
     Target("x86-64, tcc", "tcc", ""),
     Target("32-bit x86", "i686-linux-gnu-gcc", "-O1 -msse2 -mfpmath=sse", "qemu-i386", "-static", orders=True),

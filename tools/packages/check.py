@@ -13,7 +13,7 @@ import tempfile
 
 import packing
 
-PACKAGES = ("amalgamation", "cmake", "platformio", "arduino", "esp_idf", "zephyr")
+PACKAGES = ("amalgamation", "cmake", "platformio", "arduino", "esp_idf", "zephyr", "debian", "conan", "windows")
 
 
 def try_package(name, archives):

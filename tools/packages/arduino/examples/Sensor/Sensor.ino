@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Learns from a sensor of its own: when is it dark enough for the lamp? The percept is three numbers, the light on
-// pin A0, how it changes, and the hour of a day of 24 seconds. Action 1 switches the lamp on. Replace reward() by
+// pin A0, how it changes, and the hour of a day of 24 seconds. Needs 16 KiB of memory. Action 1 switches the lamp on. Replace reward() by
 // what your lamp is for. Every few minutes the serial port shows the tree that was learnt.
 #include <rlvc.h>
 
