@@ -49,7 +49,7 @@ def test_help(tmp_path, arguments):
 
 def test_help_names_every_option(tmp_path):
     text = run("binary", "--help", cwd=tmp_path).stdout
-    for option in ("solver criterion score interactions steps discount epsilon alpha alpha-known successors seed runs maze slip distractors "
+    for option in ("solver criterion score interactions steps discount epsilon alpha alpha-known successors seed runs maze legend slip distractors "
                    "classes capacity json dot export-c help version").split():
         assert re.search(rf"--{option}\b", text), option
 
@@ -150,6 +150,49 @@ def test_broken_mazes(tmp_path, text, place):
     check_refused(done, place)
     assert done.stdout == ""
     assert files(tmp_path) == ["maze.txt"]
+
+
+PLAIN = ["..#*", ".#..", "...."]
+
+
+@pytest.mark.parametrize("text", [
+    "..#*\r\n.#..\r\n....\r\n",
+    "..#*\r.#..\r....",
+    "\ufeff..#*\n.#..\n....\n\n\n",
+    "..#*  \n.#..\t\n....\n",
+    "# a maze for a test\n..#*\n.#..\n....\n",
+    ". . # *\n. # . .\n. . . .\n",
+    ".\t.\t#\t*\n.\t#\t.\t.\n.\t.\t.\t.\n",
+    "S.#G\n.#..\n....\n",
+    "  #E\n #  \n S  \n",
+    "SFHG\nFHFF\nFFFF\n",
+    "P %.\n %  \n   P\n",
+    "3\n0 0 1 2\n0 1 0 0\n0 0 0 0\n",
+    "0,2,1,3\n0,1,0,0\n0,0,0,0\n",
+    "..\u2588*\n.\u2588..\n....\n",
+], ids=ascii)
+def test_dialects_of_mazes(tmp_path, text):
+    (tmp_path / "maze.txt").write_bytes(text.encode())
+    (tmp_path / "wide.txt").write_bytes(text.replace("\ufeff", "").encode("utf-16"))
+    names = ["maze.txt"] if "\u2588" in text else ["maze.txt", "wide.txt"]
+    for name in names:
+        made = report("--maze", name, "--interactions", "100", cwd=tmp_path)
+        assert made["maze"] == PLAIN
+
+
+def test_a_legend_of_ones_own(tmp_path):
+    (tmp_path / "maze.txt").write_text("oaXZ\noXoo\noooo\n")
+    made = report("--maze", "maze.txt", "--legend", "wall=X,free=oa,exit=Z", "--interactions", "100",
+                  cwd=tmp_path)
+    assert made["maze"] == PLAIN
+    for legend, said in (
+        ("wall=X,free=o,exit=Z", ["maze.txt:1:2: ", "'a'", "--legend"]),
+        ("walls=X", ["--legend", "wall=#,free=.,exit=*"]),
+        ("wall", ["--legend", "wall=#,free=.,exit=*"]),
+        ("wall=X", ["--legend", "free and exit"]),
+    ):
+        done = run("binary", "--maze", "maze.txt", "--legend", legend, cwd=tmp_path)
+        check_refused(done, *said)
 
 
 def test_full_tree(tmp_path):

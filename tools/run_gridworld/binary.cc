@@ -54,7 +54,7 @@ void run_binary(int argc, char **argv) {
     if (!read_options(argc, argv, options)) {
         return;
     }
-    const Maze maze(options.maze);
+    const Maze maze(options.maze, options.legend);
     settle(options, maze.get());
     const std::string task = describe_task(options, maze.get());
     OutputFile json("--json", options.json);

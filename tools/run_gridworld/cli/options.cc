@@ -68,6 +68,10 @@ void add_learning(CLI::App &app, Options &options) {
 void add_world(CLI::App &app, Options &options) {
     add_file(app, "--maze", options.maze,
              "'#' wall, '.' free, '*' exit; at most 256 x 256 (default: Sutton's, 9 x 6)");
+    app.add_option(
+           "--legend", options.legend,
+           "signs of the maze, such as wall=#,free=.,exit=* (default: those of its dialect)")
+        ->type_name("SIGNS");
     app.add_option("--slip", options.slip,
                    "probability that a move goes in another direction (default 0)")
         ->type_name("P")

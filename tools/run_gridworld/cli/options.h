@@ -14,6 +14,7 @@ struct Options : LearningOptions {
     int successors = -1;      // negative: see settle()
     uint32_t capacity = 0;    // 0: see settle()
     std::string maze;         // a file; empty: Sutton's maze
+    std::string legend;       // signs of the maze; empty: those of its dialect
     float slip = 0.0f;
     uint32_t distractors = 11;
     std::string export_c; // a file; empty: none

@@ -2,6 +2,7 @@
 #include "maze_file.h"
 
 #include "../cli/failure.h"
+#include "dialect.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -10,9 +11,9 @@
 
 namespace {
 
-// The largest text of a maze, with "\r\n" at the end of each line, and a byte more: a file that
-// fills it is too large.
-constexpr std::size_t room = GRIDWORLD_SIDE_MAX * (GRIDWORLD_SIDE_MAX + 2) + 1;
+// The largest text of a maze: three bytes a cell and a blank beside it, comments, and a byte more:
+// a file that fills it is too large.
+constexpr std::size_t room = GRIDWORLD_SIDE_MAX * (4 * GRIDWORLD_SIDE_MAX + 2) + 4096 + 1;
 
 std::string read_all(const std::string &file) {
     errno = 0;
@@ -36,11 +37,11 @@ std::string place(const std::string &file, const gridworld_error &error) {
 
 } // namespace
 
-Maze::Maze(const std::string &file) : maze_(gridworld_sutton) {
+Maze::Maze(const std::string &file, const std::string &legend) : maze_(gridworld_sutton) {
     if (file.empty()) {
         return;
     }
-    const std::string text = read_all(file);
+    const std::string text = plain_maze(read_all(file), legend, file);
     gridworld_error error;
     cells_.resize(GRIDWORLD_CELLS_MAX);
     if (gridworld_parse(&maze_, text.data(), text.size(), cells_.data(), cells_.size(), &error)) {

@@ -13,8 +13,9 @@ std::vector<std::string> rows_of(const gridworld_maze &maze);
 
 class Maze {
   public:
-    // Reads a file; an empty name means Sutton's maze. Throws Failure.
-    explicit Maze(const std::string &file);
+    // Reads a file; an empty name means Sutton's maze, an empty legend that of the file's dialect.
+    // Throws Failure.
+    explicit Maze(const std::string &file, const std::string &legend = "");
     Maze(const Maze &) = delete;
     Maze &operator=(const Maze &) = delete;
 
