@@ -278,6 +278,18 @@ def pendulum():
     return _classic("pendulum", make, 10000, -250, 16, 0.8)
 
 
+def grid():
+    def make():
+        from minigrid.wrappers import FullyObsWrapper, ImgObsWrapper
+
+        return ImgObsWrapper(FullyObsWrapper(gymnasium.make("MiniGrid-Empty-5x5-v0")))
+
+    play = functools.partial(controls.mean_return, make)
+    good = share(lambda record: record["value"] >= 0.95)
+    bars = (Bar("share of runs with a return of 0.95", good, 0.9, True),)
+    return _control("grid", make, play, 10000, 0.95, bars, peers=())
+
+
 def far():
     discount = 0.99
     world = worlds.maze_world(_maze("rooms20"), DISTRACTORS, 0, earned=1.0, cost=0.0, limit=300)
@@ -345,7 +357,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, taxi, cartpole, noise, sensors, car, acrobot, pendulum, far, nothing, wander,
-    changing,
+    binary, lake, slippery, taxi, cartpole, noise, sensors, car, acrobot, pendulum, grid, far, nothing,
+    wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}

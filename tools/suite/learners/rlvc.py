@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""rlvc, with the defaults of ``rlvc.learn``: a planner on real numbers, an agent on bits."""
+"""rlvc, with the defaults of ``rlvc.learn``: a planner on up to 64 real numbers, else an agent."""
 
 import dataclasses
 
@@ -37,8 +37,9 @@ def learn(task, seed, check):
     looked = []  # the tree at the last look: a planner's often stays as it is
 
     def look(run, last=False):
-        tree = run.planner.print() if real else None
-        if not real or last or looked != [tree]:
+        plans = isinstance(run.learner, rlvc.Planner)
+        tree = run.planner.print() if plans else None
+        if not plans or last or looked != [tree]:
             looked[:] = [tree]
             check(run.history[-1].interactions if not last else task.interactions, _act(run))
 
