@@ -97,8 +97,7 @@ def unpack(archive, folder):
         with zipfile.ZipFile(archive) as packed:
             packed.extractall(folder)
     else:
-        with tarfile.open(archive) as packed:
-            packed.extractall(folder, filter="data")
+        run("tar", "--extract", "--file", archive, "--directory", folder)
     inside = list(folder.iterdir())
     return inside[0] if len(inside) == 1 and inside[0].is_dir() else folder
 
