@@ -38,7 +38,7 @@ def test_the_command_knows_every_picture():
     assert tuple(plot.KINDS) == parser.FIGURES
 
 
-@pytest.mark.parametrize("suffix", ["png", "svg"])
+@pytest.mark.parametrize("suffix", ["pdf", "png", "svg"])
 @pytest.mark.parametrize("kind", OF_BITS)
 def test_every_picture(made, kind, suffix, tmp_path):
     file = tmp_path / f"picture.{suffix}"
@@ -47,6 +47,8 @@ def test_every_picture(made, kind, suffix, tmp_path):
     if suffix == "png":
         assert content.startswith(b"\x89PNG")
         assert len(content) > 5000
+    elif suffix == "pdf":
+        assert content.startswith(b"%PDF")
     else:
         assert ElementTree.fromstring(content).tag.endswith("svg")
         other = tmp_path / "again.svg"
@@ -117,7 +119,7 @@ def test_damaged_reports(tmp_path, content, said):
 
 def test_other_file_types(made, tmp_path):
     for kind in OF_BITS:
-        with pytest.raises(errors.RunError, match=r"\.png or a \.svg"):
+        with pytest.raises(errors.RunError, match=r"\.png, a \.svg or a \.pdf"):
             plot.KINDS[kind](made, tmp_path / "picture.jpg")
 
 

@@ -177,6 +177,30 @@ def test_evaluation_of_vectors():
     assert str(evaluation) == "1 +- 0 (10 episodes)"
 
 
+def test_episodes_that_never_end_are_cut_off():
+    class Circles(gymnasium.Env):
+        """Nothing ends, and no action matters."""
+
+        observation_space = gymnasium.spaces.Discrete(2)
+        action_space = gymnasium.spaces.Discrete(2)
+
+        def reset(self, seed=None, options=None):
+            return 0, {}
+
+        def step(self, action):
+            return int(action), 1.0, False, False, {}
+
+    run = rlvc.learn(Circles(), 100, seed=1)
+    evaluation = run.evaluate(Circles(), 3, max_steps=7)
+    assert evaluation.lengths.tolist() == [7, 7, 7] and evaluation.returns.tolist() == [7.0] * 3
+    assert str(evaluation) == "7 +- 0 (3 episodes, 3 cut off after 7 decisions)"
+    envs = gymnasium.vector.SyncVectorEnv([Circles] * 2)
+    evaluation = run.evaluate(envs, 6, max_steps=5)
+    assert evaluation.lengths.tolist() == [5, 5] and evaluation.cut == 2
+    with pytest.raises(errors.ConfigError, match="max_steps"):
+        run.evaluate(Circles(), max_steps=0)
+
+
 def test_names_and_words(tmp_path):
     run = rlvc.learn(Guess("thresholds"), 500, seed=1, method="classes", names=["a", "b", "c"])
     assert "b > 0." in run.text()

@@ -101,8 +101,9 @@ def learn_command(arguments: argparse.Namespace) -> int:
         print("rlvc: interrupted: the result is incomplete", file=sys.stderr)
         return INTERRUPTED
     if env is not None and arguments.episodes > 0:
-        mean = run.evaluate(env, arguments.episodes, seed=arguments.seed).mean
-        print(f"mean return of {arguments.episodes} episodes: {mean:.4g}")
+        evaluation = run.evaluate(env, arguments.episodes, seed=arguments.seed)
+        cut = f" ({evaluation.cut} cut off)" if evaluation.cut else ""
+        print(f"mean return of {arguments.episodes} episodes{cut}: {evaluation.mean:.4g}")
     return 0
 
 

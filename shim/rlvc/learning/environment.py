@@ -60,6 +60,10 @@ class Environment:
         self.dead = np.zeros(self.count, np.bool_)
         self._see(*boundary.reset(self.env, **({} if seed is None else {"seed": seed})))
 
+    def restart(self) -> None:
+        """Begin a new episode of a single environment, whether or not the last one ended."""
+        self._see(*boundary.reset(self.env))
+
     def _see(self, observation: Any, info: Any) -> None:
         self.current = observation
         mask = info.get("action_mask") if isinstance(info, dict) else None
@@ -111,7 +115,7 @@ class Environment:
             )
             reward += more
         if terminated or truncated:
-            self._see(*boundary.reset(self.env))
+            self.restart()
         elif info or self.masks is not None or isinstance(following, dict):
             self._see(following, info)
         else:

@@ -28,10 +28,13 @@ class Evaluation:
         The undiscounted return of each.
     lengths : ndarray of int64, [episodes]
         Its number of decisions.
+    cut : int
+        How many were cut off after ``max_steps`` decisions: they may never have ended.
     """
 
     returns: npt.NDArray[np.float64]
     lengths: npt.NDArray[np.int64]
+    cut: int = 0
 
     @property
     def mean(self) -> float:
@@ -50,43 +53,53 @@ class Evaluation:
     def __str__(self) -> str:
         """Describe it in one line."""
         count = len(self.returns)
-        return f"{self.mean:.4g} +- {self.std:.4g} ({count} episode{'s' * (count != 1)})"
+        cut = f", {self.cut} cut off after {self.lengths.max()} decisions" if self.cut else ""
+        return f"{self.mean:.4g} +- {self.std:.4g} ({count} episode{'s' * (count != 1)}{cut})"
 
 
-def evaluate(run: Run, env: Any, episodes: int, seed: int) -> Evaluation:
+def evaluate(run: Run, env: Any, episodes: int, seed: int, max_steps: int) -> Evaluation:
     """Play episodes: see :meth:`rlvc.Run.evaluate`."""
     episodes = whole("episodes", episodes, 1, 2**53)
+    max_steps = whole("max_steps", max_steps, 1, 2**53)
     seed = whole("seed", seed, 0, 2**63 - 1)
     stream = Environment(env)
     if run.encoder is None:
         raise ConfigError("evaluate: a run on percepts has no encoder for observations")
     stream.start(run.actions, seed)
-    return _play_all(run, stream, episodes) if stream.vector else _play(run, stream, episodes)
+    play = _play_all if stream.vector else _play
+    return play(run, stream, episodes, max_steps)
 
 
-def _play(run: Run, stream: Environment, episodes: int) -> Evaluation:
-    returns, lengths = [], []
+def _play(run: Run, stream: Environment, episodes: int, max_steps: int) -> Evaluation:
+    returns, lengths, cut = [], [], 0
     for _ in range(episodes):
         total, length, over = 0.0, 0, False
-        while not over:
+        while not over and length < max_steps:
             percept = run.percept(stream.current)
             action = run.index(percept)
             if stream.masks is not None:
                 action = best_allowed(run, percept, action, stream.masks[0])
             _, reward, terminated, truncated = stream.step(action)
             total, length, over = total + reward, length + 1, terminated or truncated
+        if not over:
+            cut += 1
+            stream.restart()
         returns.append(total)
         lengths.append(length)
-    return Evaluation(np.array(returns), np.array(lengths))
+    return Evaluation(np.array(returns), np.array(lengths), cut)
 
 
-def _play_all(run: Run, stream: Environment, episodes: int) -> Evaluation:
-    """Play with a vector: each environment its share, so that short episodes do not count more."""
+def _play_all(run: Run, stream: Environment, episodes: int, max_steps: int) -> Evaluation:
+    """Play with a vector: each environment its share, so that short episodes do not count more.
+
+    An environment whose episode is cut off plays no more, as it cannot be reset by itself.
+    """
     count = stream.count
     share = [(episodes + i) // count for i in range(count)][::-1]
     sums, steps = np.zeros(count), np.zeros(count, np.int64)
     returns: list[list[float]] = [[] for _ in range(count)]
     lengths: list[list[int]] = [[] for _ in range(count)]
+    cut = 0
     while any(len(done) < wanted for done, wanted in zip(returns, share, strict=True)):
         percepts = run.percepts(stream.current)
         chosen = np.array(run.indices(percepts), np.int64)
@@ -97,12 +110,17 @@ def _play_all(run: Run, stream: Environment, episodes: int) -> Evaluation:
         _, rewards, terminated, truncated = stream.step_all(chosen)
         sums[~dead] += rewards[~dead]
         steps[~dead] += 1
-        for i in np.flatnonzero((terminated | truncated) & ~dead).tolist():
+        over = terminated | truncated
+        for i in np.flatnonzero((over | (steps >= max_steps)) & ~dead).tolist():
             if len(returns[i]) < share[i]:
                 returns[i].append(float(sums[i]))
                 lengths[i].append(int(steps[i]))
+                if not over[i]:
+                    cut += 1
+                    share[i] = len(returns[i])
             sums[i], steps[i] = 0.0, 0
     return Evaluation(
         np.array([value for done in returns for value in done]),
         np.array([value for done in lengths for value in done]),
+        cut,
     )

@@ -270,6 +270,7 @@ class Run:
         env: gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any],
         episodes: int = 100,
         seed: int = 0,
+        max_steps: int = 100_000,
     ) -> Evaluation:
         """Play episodes with the learnt policy, without exploring.
 
@@ -280,16 +281,20 @@ class Run:
         episodes : int
         seed : int
             Seed of the first reset.
+        max_steps : int
+            An episode is cut off after so many decisions: a policy may go in circles for ever where
+            the environment has no limit of time. Of a vector, an environment whose episode is cut
+            off plays no more.
 
         Returns
         -------
         Evaluation
-            Its ``mean``, ``std``, ``returns`` and ``lengths``.
+            Its ``mean``, ``std``, ``returns`` and ``lengths``, and how many episodes were ``cut``.
 
         Raises
         ------
         ConfigError
-            ``episodes`` is not at least 1, or ``seed`` not at least 0.
+            ``episodes`` or ``max_steps`` is not at least 1, or ``seed`` not at least 0.
         EnvError, RewardError, PerceptError
             The environment returned something else than Gymnasium's interface says.
 
@@ -298,7 +303,7 @@ class Run:
         Each action is held as in learning. Where the environment's info or observation has an
         ``action_mask``, only actions that it allows are taken.
         """
-        return evaluate(self, env, episodes, seed)
+        return evaluate(self, env, episodes, seed, max_steps)
 
     # -------------------------------------------------------------- going on
 

@@ -8,7 +8,7 @@ All functions take the same parameters:
     --json`` write them), a :class:`~rlvc.Run`, or an :class:`~rlvc.Agent`, :class:`~rlvc.Planner` or
     :class:`~rlvc.Policy`. Each function lists the members of the report that it needs.
 ``file``
-    Where to save the figure: a .png or a .svg. None: it is not saved.
+    Where to save the figure: a .png, a .svg or a .pdf. None: it is not saved.
 ``objects``
     The pictures of the Tiled Gridworld: the ``objects`` of its environment. None: they are read
     from the folder that the report names, or rendered; this needs the vision module.

@@ -123,9 +123,9 @@ def save(figure: Figure, file: str | Path | None) -> Figure:
         check_name(file)
         # No date and fixed identifiers: the same run makes the same file.
         with mpl.rc_context({"svg.hashsalt": "rlvc", "svg.fonttype": "path"}):
-            metadata = {"Date": None} if str(file).lower().endswith(".svg") else {}
-            drawn = io.BytesIO()
             form = Path(file).suffix.lower()[1:]
+            metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(form, {})
+            drawn = io.BytesIO()
             figure.savefig(
                 drawn, format=form, dpi=150, bbox_inches="tight", facecolor=PAPER, metadata=metadata
             )
@@ -134,9 +134,9 @@ def save(figure: Figure, file: str | Path | None) -> Figure:
 
 
 def check_name(file: str | Path) -> None:
-    """Raise RunError unless the file is a .png or a .svg."""
-    if Path(file).suffix.lower() not in (".png", ".svg"):
-        raise RunError(f"{file}: the file must be a .png or a .svg")
+    """Raise RunError unless the file is a .png, a .svg or a .pdf."""
+    if Path(file).suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise RunError(f"{file}: the file must be a .png, a .svg or a .pdf")
 
 
 def explained(name: str, report: dict[str, Any]) -> str:
