@@ -1,54 +1,39 @@
 /* SPDX-License-Identifier: MIT */
 /* Defaults found by trial.
  *
- * The published criterion asks for the same evidence from every feature. In a small maze without
- * slip the residual criterion learns fast, from the interactions that fit into 36 KiB. Slip needs
- * more samples. In a larger maze the memory must hold all interactions, and all actions are
- * exploring ones: the greedy action of a class that still covers half the maze would only push the
- * walk into a corner. Splits by successors are off there: they take several times as long, and
- * rewards alone separate as much in the end. An incremental solver forgets at its learning rate,
- * so it needs more interactions, and more of them along its policy. */
+ * The published criterion asks for the same evidence from every feature. By residuals the defaults
+ * are the library's, for a maze of any size, with or without slip. A learning step after every 100
+ * interactions is soon enough; of many interactions, after every hundredth part of them. A class
+ * needs eight interactions, so that no more classes than that can come up. An incremental solver
+ * forgets at its learning rate, so it needs more interactions, and more of them along its
+ * policy. */
 #include "maze_defaults.h"
 
-#define SMALL_CELLS 46u /* as many as Sutton's maze has */
-#define LARGE_INTERACTIONS_A_CELL 320u
+#define STEP_INTERACTIONS 100u
+#define STEPS_MAX 100u
+#define CLASS_INTERACTIONS 8u
 #define CLASSES_MIN 64u
 #define CLASSES_MAX 65535u
-#define SUCCESSORS_BITS_MAX 64u /* their search needs all bits in one block of columns */
 
-static const gridworld_defaults published = {10000, 20, 0, 0, 0.8f, 0.05f, 0.0001f, 0};
-static const gridworld_defaults small = {2500, 25, 1200, 0, 0.9f, 0.01f, 1.0f, 1};
-static const gridworld_defaults small_incremental = {20000, 200, 1200, 0, 0.3f, 0.01f, 1.0f, 1};
-static const gridworld_defaults large = {0, 60, 0, 0, 1.0f, 0.01f, 0.00001f, 0};
+static const gridworld_defaults published = {10000, 20, 0, 0.8f, 0.05f, 0.0001f, 0};
+static const gridworld_defaults by_residuals = {5000, 0, 0, 0.9f, 0.01f, 0.1f, 1};
+static const gridworld_defaults incremental = {20000, 0, 0, 0.3f, 0.01f, 0.1f, 1};
 
-static gridworld_defaults by_residuals(const gridworld_maze *maze,
-                                       const gridworld_learner *learner) {
-    gridworld_defaults defaults = large;
-    if (maze->free_cells <= SMALL_CELLS && learner->slip == 0.0f) {
-        return learner->incremental ? small_incremental : small;
-    }
-    defaults.interactions = LARGE_INTERACTIONS_A_CELL * maze->free_cells;
-    if (learner->incremental) {
-        defaults.epsilon = small_incremental.epsilon;
-    }
-    return defaults;
+static uint32_t within(uint32_t low, uint32_t x, uint32_t high) {
+    const uint32_t least = x < low ? low : x;
+    return least > high ? high : least;
 }
 
-/* Four classes for three cells, within the limits. */
-static uint32_t classes_for(uint32_t cells) {
-    const uint32_t classes = cells / 3 * 4 + 4;
-    if (classes < CLASSES_MIN) {
-        return CLASSES_MIN;
+gridworld_defaults gridworld_defaults_for(const gridworld_learner *learner) {
+    gridworld_defaults defaults = learner->returns       ? published
+                                  : learner->incremental ? incremental
+                                                         : by_residuals;
+    if (learner->interactions > 0) {
+        defaults.interactions = learner->interactions;
     }
-    return classes > CLASSES_MAX ? CLASSES_MAX : classes;
-}
-
-gridworld_defaults gridworld_defaults_for(const gridworld_maze *maze,
-                                          const gridworld_learner *learner) {
-    gridworld_defaults defaults = learner->returns ? published : by_residuals(maze, learner);
-    if (gridworld_bits(maze, learner->distractors) > SUCCESSORS_BITS_MAX) {
-        defaults.successors = 0;
+    if (!learner->returns) {
+        defaults.steps = within(1, defaults.interactions / STEP_INTERACTIONS, STEPS_MAX);
     }
-    defaults.classes = classes_for(maze->free_cells);
+    defaults.classes = within(CLASSES_MIN, defaults.interactions / CLASS_INTERACTIONS, CLASSES_MAX);
     return defaults;
 }

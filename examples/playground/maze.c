@@ -64,7 +64,6 @@ static struct {
 
 static void configure(rlvc_config *config, float epsilon, uint32_t seed) {
     const gridworld_defaults *defaults = &lab.defaults;
-    const uint32_t all = defaults->interactions;
     (void)rlvc_config_default(config, &lab.domain, GRIDWORLD_ACTIONS);
     config->seed = seed;
     config->discount = DISCOUNT;
@@ -73,8 +72,7 @@ static void configure(rlvc_config *config, float epsilon, uint32_t seed) {
     config->successors = (uint8_t)defaults->successors;
     config->epsilon = epsilon < 0.0f ? defaults->epsilon : epsilon;
     config->classes = defaults->classes;
-    config->capacity =
-        defaults->capacity > 0 && defaults->capacity < all ? defaults->capacity : all;
+    config->capacity = defaults->interactions;
     if (lab.returns) {
         config->criterion = RLVC_CRITERION_RETURNS;
         config->continuing = 1;
@@ -144,7 +142,7 @@ static void look(void);
  * @return MADE, ...; after BAD_MAZE maze_fault() says what is wrong. */
 EXPORT(maze_new)
 int maze_new(int returns, uint32_t distractors, float slip, float epsilon, uint32_t seed) {
-    const gridworld_learner learner = {returns, 0, distractors, slip};
+    const gridworld_learner learner = {returns, 0, 0};
     unsigned char *cells;
     int made;
     memory_release(0);
@@ -157,7 +155,7 @@ int maze_new(int returns, uint32_t distractors, float slip, float epsilon, uint3
     lab.returns = returns;
     lab.slip = slip;
     lab.sum = 0.0f;
-    lab.defaults = gridworld_defaults_for(&lab.maze, &learner);
+    lab.defaults = gridworld_defaults_for(&learner);
     if (gridworld_init(&lab.world, &lab.maze, distractors, slip, seed) != 0 ||
         rlvc_bits_domain(gridworld_bits(&lab.maze, distractors), &lab.domain) != RLVC_OK) {
         return BAD_OPTIONS;

@@ -104,10 +104,7 @@ static void wait_for(rlvc_shim_table *table, uint32_t pair, const unsigned char 
     table->now[at + words - 1u] = 0;
     table->next[at + words - 1u] = 0;
     memcpy(table->now + at, now, bytes);
-    if (next)
-        memcpy(table->next + at, next, bytes);
-    else
-        memset(table->next + at, 0, bytes);
+    memcpy(table->next + at, next, bytes);
     if (++table->waiting[pair] == WAITING)
         flush_pair(table, pair);
 }
@@ -216,7 +213,7 @@ static rlvc_status count_one(rlvc_shim_table *table, const rlvc_shim_columns *co
         lane[b] += table->spread[now[b]];
     if (++table->pending[row] == PENDING_MAX)
         flush_row(table, row);
-    if (table->follow)
+    if (table->follow && next)
         wait_for(table, table->row_pair[row], now, next);
     if (table->reward)
         rlvc_exact_sum_add(&table->reward[table->row_pair[row]], columns->rewards[i], 1);

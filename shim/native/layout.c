@@ -65,6 +65,7 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_config, continuing)},
     {FIELD(rlvc_config, successors)},
     {FIELD(rlvc_config, explore)},
+    {FIELD(rlvc_config, dependence)},
     {FIELD(rlvc_config, reserved)},
     {FIELD(rlvc_config, discount)},
     {FIELD(rlvc_config, epsilon)},

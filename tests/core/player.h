@@ -86,6 +86,7 @@ static inline void player_enter_world(player *p, int form) {
     p->config.alpha = 0.05f;
     p->config.alpha_known = 0.05f;
     p->config.successors = 0;
+    p->config.dependence = 0;
 }
 
 /* Makes the agent that p->config asks for. */

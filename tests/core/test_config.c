@@ -47,7 +47,9 @@ static void test_defaults(void **state) {
         assert_int_equal(rlvc_config_default(&config, &domain, 9), RLVC_OK);
         assert_int_equal(config.features_at_once, at_once[i]);
         assert_int_equal(config.actions, 9);
-        assert_int_equal(config.successors, i % 2 && features[i] <= 64);
+        assert_int_equal(config.successors, i % 2);
+        assert_int_equal(config.dependence, i % 2);
+        assert_true(config.alpha_known == (i % 2 ? 0.1f : 1.0f));
         expect(NULL, "defaults");
     }
     /* As the header states them. */
@@ -120,8 +122,8 @@ static void test_choices(void **state) {
         {"continuing", &config.continuing, 1},
         {"successors", &config.successors, 1},
         {"explore", &config.explore, 1},
-        {"reserved", &config.reserved[0], 0},
-        {"reserved", &config.reserved[1], 0},
+        {"dependence", &config.dependence, 1},
+        {"reserved", &config.reserved, 0},
     };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
         for (uint32_t value = 0; value <= UINT8_MAX; value++) {
@@ -204,14 +206,14 @@ static void test_callbacks(void **state) {
     expect(NULL, "with both");
 }
 
-/* Looking for what follows needs all candidates in one block. */
+/* Looking for what follows needs candidates, and how many there are. */
 static void test_successors(void **state) {
     (void)state;
     static const struct {
         uint32_t features_max, features_at_once;
         uint8_t own_oracle, possible;
-    } cases[] = {{18, 18, 0, 1}, {18, 64, 0, 1}, {1, 1, 0, 1},  {19, 18, 0, 0},
-                 {0, 64, 0, 0},  {65, 64, 0, 0}, {18, 18, 1, 0}};
+    } cases[] = {{18, 18, 0, 1}, {18, 64, 0, 1}, {1, 1, 0, 1},  {19, 18, 0, 1},
+                 {0, 64, 0, 0},  {65, 64, 0, 1}, {18, 18, 1, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         make();
         domain.features_max = cases[i].features_max;

@@ -33,6 +33,7 @@ static uint32_t seen_count;
 static rlvc_count_row row[MOST];
 static uint64_t with[MOST * BITS];
 static rlvc_count_pair pair[MOST];
+static uint64_t pair_count[MOST]; /* also of what terminated */
 static uint64_t follow[MOST * WIDTH * WIDTH];
 static rlvc_exact_sum reward[MOST];
 static unsigned char feature[2u * BITS];
@@ -146,6 +147,7 @@ static void count(uint32_t mask, uint32_t apart, uint64_t times) {
     rlvc_rng_seed(&rng, 3);
     memset(with, 0, sizeof with);
     memset(follow, 0, sizeof follow);
+    memset(pair_count, 0, sizeof pair_count);
     counts.rows = 0;
     counts.pairs = 0;
     counts.cell_bits = 0;
@@ -158,11 +160,12 @@ static void count(uint32_t mask, uint32_t apart, uint64_t times) {
         const interaction *of = &seen[apart > MOST ? k : seen_count - 1u - k];
         uint32_t i = row_of(of, mask, apart, &rng), j = pair_of(of, mask);
         row[i].count += times;
+        pair_count[j] += times;
         for (uint32_t f = 0; f < WIDTH; f++) {
             uint32_t shows = f == 0 || of->now >> (f - 1u) & 1u;
             if (f > 0)
                 with[i * BITS + f - 1u] += shows * times;
-            for (uint32_t g = 0; g < WIDTH && shows; g++)
+            for (uint32_t g = 0; g < WIDTH && shows && of->end != RLVC_TERMINATED; g++)
                 follow[(j * WIDTH + f) * WIDTH + g] +=
                     (g == 0 || of->next >> (g - 1u) & 1u) * times;
         }
@@ -266,7 +269,7 @@ static void test_sums_of_rewards(void **state) {
     count(63, 1u << 20, 1);
     memset(reward, 0, sizeof reward);
     for (uint32_t i = 0; i < counts.pairs; i++)
-        reward[i].word[2] = follow[i * WIDTH * WIDTH] << 21; /* 1 is 2^149 units */
+        reward[i].word[2] = pair_count[i] << 21; /* 1 is 2^149 units */
     counts.reward = reward;
     rlvc_agent *agent = agent_in(ring, sizeof ring);
     assert_int_equal(round_of(agent, &progress), RLVC_OK);
@@ -462,11 +465,12 @@ static void test_refusals(void **state) {
     assert_int_equal(rlvc_learn_counts(agent, &counts, workspace, sizeof workspace, &progress),
                      RLVC_E_BUSY);
 
-    for (uint32_t i = 0; i < 4u; i++) { /* what does not depend on counts alone */
+    for (uint32_t i = 0; i < 5u; i++) { /* what does not depend on counts alone */
         configure(0);
         p.config.criterion = i != 0;
         p.config.solver = i == 1 ? RLVC_SOLVER_SARSA : RLVC_SOLVER_VALUE_ITERATION;
         p.config.score = i == 2 ? RLVC_SCORE_RANKS : RLVC_SCORE_GAIN;
+        p.config.dependence = p.config.successors = i == 4;
         if (i == 3)
             player_enter_world(&p, OWN_ORACLE);
         agent = agent_in(ring, sizeof ring);

@@ -55,6 +55,7 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.alpha = 1.0f;
     agent->config.alpha_known = 0.3f;
     agent->config.successors = l->form != OWN_ORACLE && l->solver != RLVC_SOLVER_POLICY_ITERATION;
+    agent->config.dependence = l->form != BATCH && l->solver != RLVC_SOLVER_VALUE_ITERATION;
     agent->config.features_at_once = agent->config.successors ? 6 : 2;
     player_init(agent);
     for (uint32_t i = 0; i < steps; i++) {
@@ -197,14 +198,14 @@ static int none(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t
     return 0;
 }
 
-/* Interactions without a reward, whose percept changes at every tenth: what follows is foretold by
- * it. */
+/* Interactions without a reward, whose percept changes at every tenth, by the other action: what
+ * follows is foretold by it. */
 static void change_seldom(uint32_t interactions) {
-    const rlvc_choice choice = {0, 1};
+    unsigned char percept = 0;
+    assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
     for (uint32_t i = 0; i < interactions; i++) {
-        unsigned char percept = (unsigned char)(i / 10u % 2u);
-        if (i == 0)
-            assert_int_equal(rlvc_begin(p.agent, &percept), RLVC_OK);
+        const rlvc_choice choice = {i % 10u == 9u, 1};
+        percept ^= choice.action;
         assert_int_equal(rlvc_observe(p.agent, choice, 0.0f, &percept, RLVC_GOES_ON), RLVC_OK);
     }
 }

@@ -57,6 +57,7 @@ static void prepare(const kind *k) {
     p.config.capacity = 900;
     p.config.alpha_known = 0.3f;
     p.config.successors = k->form != OWN_ORACLE;
+    p.config.dependence = k->form != OWN_ORACLE;
     p.config.score = k->form == ONE_BY_ONE ? RLVC_SCORE_RANKS : RLVC_SCORE_GAIN;
     player_init(&p);
 }
@@ -92,7 +93,7 @@ static void resume_and_compare(uint32_t budget, const rlvc_store *store) {
 
 static void test_resume_anywhere(void **state) {
     (void)state;
-    uint32_t phases[10] = {0};
+    uint32_t phases[RLVC_PHASE_INFLUENCE + 1] = {0};
     for (int i = 0; i < FORMS * 8; i++) {
         const kind k = {(uint8_t)(i & 1), (uint8_t)(i / 2 % 4), i / 8};
         const uint32_t budget = 64u + 37u * (uint32_t)(i / 3 % 5);
@@ -112,8 +113,8 @@ static void test_resume_anywhere(void **state) {
             }
         }
     }
-    for (int phase = 0; phase < 9; phase++)
-        assert_true(phases[phase] > 0);
+    for (int phase = 0; phase <= RLVC_PHASE_INFLUENCE; phase++)
+        assert_true(phases[phase] > 0 || phase == RLVC_PHASE_FINISH);
 }
 
 /* Every single slice of one step, as short as slices get, and on to the end of it. */

@@ -22,10 +22,12 @@ def struct(name, /, **fields):
 
 Domain = struct("Domain", ctx=POINTER, percept_bytes=U32, feature_bytes=U32, features_max=U32,
                 exhibits=POINTER, candidates=POINTER, detect=POINTER, oracle=POINTER, name=POINTER,
-                check_percept=POINTER, check_feature=POINTER)
+                check_percept=POINTER, check_feature=POINTER, percept_words=U32, feature_words=U32,
+                feature_halves=U32)
 Config = struct("Config", actions=U32, capacity=U32, classes=U32, features_at_once=U32,
                 min_samples=U32, max_sweeps=U32, seed=U32, criterion=U8, score=U8, solver=U8,
-                continuing=U8, successors=U8, explore=U8, reserved=U8 * 2, discount=FLOAT, epsilon=FLOAT, alpha=FLOAT,
+                continuing=U8, successors=U8, explore=U8, dependence=U8,
+                reserved=U8, discount=FLOAT, epsilon=FLOAT, alpha=FLOAT,
                 alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT)
 Choice = struct("Choice", action=U8, exploited=U8)
 Progress = struct("Progress", work=U32, rounds=U32, splits=U32, done=U8, reserved=U8 * 3)

@@ -25,6 +25,10 @@ TASKS = {
     "rare both": (lambda rng: 100.0 if rng.random() < 0.02 else -1.0, 0.03),
 }
 
+# Bits that stay as they are with a probability, and normal rewards of which each keeps a part of the last one:
+# independent of each other, but not samples of one trajectory.
+STAYING = {"staying": (0.95, 0.0), "drift": (0.9, 0.9), "slow drift": (0.99, 0.99)}
+
 SCORES = {"gain": binding.GAIN, "ranks": binding.RANKS}
 
 
@@ -39,6 +43,24 @@ def grows(task, seed, interactions, every, bits=18, actions=4, shift=0.0, **fiel
     for t in range(1, interactions + 1):
         earned = reward(rng) + shift * percepts[t - 1][0]
         agent.observe(*agent.act(), earned, percepts[t], binding.GOES_ON)
+        if t % every == 0:
+            agent.learn()
+            if agent.stats().classes > 1:
+                return t
+    return 0
+
+
+def grows_staying(task, seed, interactions, every, bits=18, actions=4, **fields):
+    """Likewise, for bits and rewards that stay for a while."""
+    stays, keeps = STAYING[task]
+    rng = numpy.random.default_rng(seed)
+    agent = binding.Agent(bits, actions, capacity=interactions, seed=seed, **fields)
+    percept, reward = rng.random(bits) < 0.5, rng.normal()
+    agent.begin(percept)
+    for t in range(1, interactions + 1):
+        reward = keeps * reward + numpy.sqrt(1 - keeps**2) * rng.normal()
+        percept = numpy.where(rng.random(bits) < stays, percept, ~percept)
+        agent.observe(*agent.act(), float(numpy.float32(reward)), percept, binding.GOES_ON)
         if t % every == 0:
             agent.learn()
             if agent.stats().classes > 1:
@@ -67,6 +89,10 @@ def main():
         median = numpy.median([after or numpy.inf for after in found])
         print(f"{task:12} {grown:4} of {options.runs} runs grew a test",
               f"after {median:.0f} interactions (median)" if options.shift else "", flush=True)
+    for task in () if options.shift else STAYING:
+        grown = sum(grows_staying(task, seed, options.interactions, options.every, alpha=options.alpha,
+                                  score=SCORES[options.score]) > 0 for seed in range(options.runs))
+        print(f"{task:12} {grown:4} of {options.runs} runs grew a test", flush=True)
 
 
 if __name__ == "__main__":

@@ -320,32 +320,61 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
     return Search(alone, together, groups, numpy.log(max(len(features), 1)), kind)
 
 
-def log_pairs(f, g, features):
-    """What a pair's p-value is corrected by: the pairs g = f have half of the level."""
-    return numpy.log(2 * features * (1 if f == g else features - 1))
-
-
 def level(alpha, step, successors):
     """At which a feature new to the tree must pass."""
     d = (step + 1).bit_length()
     return alpha / (d * (d + 1) * 2 ** (d - 1)) / (1 + successors)
 
 
-def follow(percepts, nexts, actions, action_count, min_samples):
-    """Looks for a feature f of s that s' depends on: for each pair (g, f) that has a table, in the order
-    in which ties go, the sum of statistics over the actions, and its degrees of freedom."""
-    if len(percepts) < min_samples:
-        return {}
-    sums = {}
-    for action in range(action_count):
-        now, then = (x[actions == action].astype(float) for x in (percepts, nexts))
-        n, f, g, both = len(now), now.sum(0), then.sum(0), now.T @ then
-        for j, i in numpy.ndindex(len(g), len(f)):
-            if 0 < f[i] < n and 0 < g[j] < n:
-                b = both[i, j]
-                more = table_statistic((b, f[i] - b, g[j] - b, n - f[i] - g[j] + b))
-                sums[j, i] = tuple(numpy.add(sums.get((j, i), (0.0, 0)), (more, 1)))
-    return sums
+def table_least(table):
+    """What a table adds to a sum of very many."""
+    n = sum(table)
+    return min(float(pearson(*table)) * (n - 1) / n,
+               float(2 * numpy.log(2) * n * scores(*table)))
+
+
+def add_table(sums, table):
+    a, b, c, d = table
+    if min(a + b, c + d, a + c, b + d) > 0:
+        sums += table_least(table), 1
+
+
+def sum_log_p(statistic, degrees):
+    """ln p; of more than 255 degrees of freedom that of 255, as many standard deviations above the mean."""
+    if statistic <= degrees:
+        return 0.0
+    if degrees > 255:
+        statistic = 255 + (statistic - degrees) * numpy.sqrt(255 / degrees)
+        degrees = 255
+    return scipy.stats.chi2.logsf(statistic, degrees)
+
+
+def influenced(percepts, nexts, actions, classes, action_count, log_level):
+    """The features of s' that depend on the action, in strata of the class and of what s exhibits."""
+    passed = []
+    for f in range(percepts.shape[1]):
+        sums = numpy.zeros(2)
+        for class_id, value in numpy.ndindex(classes.max(initial=0) + 1, 2):
+            mine = (classes == class_id) & (percepts[:, f] == value)
+            counts = numpy.array([[numpy.sum(nexts[mine & (actions == a), f] == v) for v in (1, 0)]
+                                  for a in range(action_count)])
+            for a in range(1, action_count):
+                add_table(sums, (*counts[:a].sum(0), *counts[a]))
+        if sum_log_p(*sums) + numpy.log(percepts.shape[1]) < log_level:
+            passed.append(f)
+    return passed
+
+
+def lasting(percepts, nexts, actions, action_count, features):
+    """For each feature: the sum of statistics by which s' depends on s, and its degrees of freedom."""
+    result = {}
+    for f in features:
+        result[f] = numpy.zeros(2)
+        for a in range(action_count):
+            now, then = percepts[actions == a, f], nexts[actions == a, f]
+            add_table(result[f], tuple(numpy.sum((now == x) & (then == y))
+                                       for x, y in ((1, 1), (1, 0), (0, 1), (0, 0))))
+    return result
 
 
 # ------------------------------------------------------------------ classes (section 4.3)

@@ -24,6 +24,7 @@ class Learner:
 
     def __init__(self, bits, actions, **fields):
         fields.setdefault("successors", 0)
+        fields.setdefault("dependence", 0)
         self.agent = binding.Agent(bits, actions, **fields)
         self.config = self.agent.config
         self.tree, self.database, self.current = method.Tree(), [], None
@@ -87,8 +88,9 @@ class Learner:
         actions = numpy.array([x.action for x in self.database])
         residual = self.config.criterion == method.RESIDUAL
         gap = 2.0 * self.config.tolerance if residual else 0.0
-        nexts = numpy.array([numpy.zeros_like(x.percept) if x.next is None else x.next
-                             for x in self.database])
+        strict = method.level(self.config.alpha, step, self.config.successors)
+        lives = numpy.array([x.next is not None for x in self.database])
+        nexts = numpy.array([x.percept if x.next is None else x.next for x in self.database])
 
         def search(mine):
             found = method.search(percepts[mine], actions[mine], targets[mine], self.config.actions,
@@ -96,17 +98,21 @@ class Learner:
             return self.allowed(found) if found else []
 
         def follow(mine):
-            return self.following(method.follow(percepts[mine], nexts[mine], actions[mine],
-                                                self.config.actions, self.config.min_samples),
-                                  mine.sum())
+            if mine.sum() < self.config.min_samples:
+                return []
+            goes_on = mine & lives
+            return self.following(method.lasting(percepts[goes_on], nexts[goes_on], actions[goes_on],
+                                                 self.config.actions, features), mine.sum())
 
         for look in (search, follow)[:1 + self.config.successors]:
             splits = []
+            if look is follow:
+                features = method.influenced(percepts[lives], nexts[lives], actions[lives], here[lives],
+                                             self.config.actions, numpy.log(strict))
             for class_id in range(len(self.tree.splits) + 1):
                 split = left[0] if left and left[0][0].class_id == class_id else None
-                known = [bit for _, bit in self.tree.splits + splits]
+                known = features if look is follow else [bit for _, bit in self.tree.splits + splits]
                 mine = (here == class_id) & ~numpy.isnan(targets)
-                strict = method.level(self.config.alpha, step, self.config.successors)
                 if self.compare(look(mine), split, known, strict):
                     assert split[0].step == step
                     splits.append((class_id, left.pop(0)[1]))
@@ -195,18 +201,13 @@ class Learner:
         return options
 
     def following(self, sums, samples):
-        """The split by what follows that the method allows; several if rounding cannot tell."""
-        log_tests = {pair: method.log_pairs(*pair, self.agent.bits) for pair in sums}
-        evidence = {pair: x[0] - 2 * log_tests[pair] for pair, x in sums.items()}
-        most = max(evidence.values(), default=0.0)
-        options = []
-        for pair, (statistic, degrees) in sorted(sums.items()):
-            if evidence[pair] >= most - NEAR * (1 + statistic):
-                log_p = scipy.stats.chi2.logsf(statistic, degrees) + log_tests[pair]
-                options.append({"bit": pair[1], "action": self.config.actions + 1, "samples": samples,
-                                "score": statistic / samples, "log_tests": log_tests[pair],
-                                "log_p": min(0.0, log_p)})
-        return options
+        """The split by what lasts that the method allows; several if rounding cannot tell."""
+        log_p = {f: method.sum_log_p(*x) for f, x in sums.items()}
+        least = min(log_p.values(), default=0.0)
+        return [{"bit": f, "action": self.config.actions + 1, "samples": samples,
+                 "score": sums[f][0] / samples, "log_tests": numpy.log(len(sums)),
+                 "log_p": log_p[f] + numpy.log(len(sums))}
+                for f in sorted(sums) if log_p[f] < 0.0 and log_p[f] <= least + NUMBERS * (1 - least)]
 
     # -------------------------------------------------------------- values
 
@@ -297,14 +298,18 @@ def test_random_successors(seed):
 
 @pytest.mark.parametrize("seed", range(10))
 def test_nothing_pays(seed):
-    """While no reward differs, the tree grows by the bits that last, and by no other."""
+    """While no reward differs, the tree grows by the bits that the agent turns round, and by no other,
+    although one stays for long."""
     rng = numpy.random.default_rng(4000 + seed)
     learner = Learner(6, 2, capacity=1000, successors=1)
     learner.begin(rng.integers(0, 2, 6))
     for _ in range(400):
-        percept, noise = learner.current, rng.integers(0, 2, 6)
-        lasts = numpy.array([0, 1, 0, 0, 1, 0]) * (rng.random(6) < 0.8)
-        learner.observe(int(rng.integers(2)), 0, 0.0, numpy.where(lasts, percept, noise), GOES_ON)
+        percept, action = learner.current, int(rng.integers(2))
+        after = rng.integers(0, 2, 6)
+        turned = rng.random(6) < 0.8
+        after[[1, 4]] = numpy.where(turned, percept ^ action, after)[[1, 4]]
+        after[2] = percept[2] ^ (rng.random() < 0.05)
+        learner.observe(action, 0, 0.0, after, GOES_ON)
     assert learner.learn() == 3
     assert {bit for _, bit in learner.agent.splits()} == {1, 4}
     assert all(split.action == 3 for split, _ in learner.agent.splits())

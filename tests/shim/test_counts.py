@@ -34,7 +34,6 @@ def reference(some, ask):
     over = some.ends == 1
     now, after = (np.unpackbits(side, axis=1, count=ask.features, bitorder="little").astype(np.int64)
                   for side in (some.percepts, some.next_percepts))  # fmt: skip
-    after[over] = 0
     next_cell = np.where(over, 0, cells(some.next_percepts, ask.tested)).astype(np.uint64)
     now_cell = cells(some.percepts, ask.tested)
     rows, pairs = {}, {}
@@ -46,6 +45,7 @@ def reference(some, ask):
     counted = {key: (len(of), now[of].sum(0).tolist()) for key, of in rows.items()}
     one = np.ones((len(some), 1), np.int64)
     now, after = np.hstack([one, now]), np.hstack([one, after])
+    after[over] = 0  # what terminated has no next percept
     follow = {key: (now[of].T @ after[of]).tolist() for key, of in pairs.items()}
     return counted, follow
 
@@ -145,7 +145,7 @@ def test_faults_are_named(field, value, text):
 
 def learn(some, tested=(), **config):
     """The agent that counts make, and the passes."""
-    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001} | config
+    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001, "dependence": False} | config
     agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
     progress = rounds.Progress()
     rounds.learn(agent, lambda cell: counted(some, rounds.question_of(agent, cell, False)), progress,
@@ -179,6 +179,7 @@ def test_what_counts_cannot_do_is_refused():
         ({"solver": "sarsa"}, "sarsa depends on the order"),
         ({"solver": "q_learning"}, "q_learning depends on the order"),
         ({"score": "ranks"}, "ranks are not made from counts"),
+        ({}, "how long a feature stays"),
     ):
         with pytest.raises(ConfigError, match=text):
             rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **config)))
@@ -216,7 +217,7 @@ def test_more_than_any_ring_holds(total):
 
 
 def test_too_many_is_an_error():
-    agent = rlvc.Agent(worlds.BITS, 4)
+    agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, dependence=False))
     part = scaled(counted(worlds.maze(1000), rounds.question_of(agent, (), False)), 2**48)
     with pytest.raises(RangeError):
         agent.learn_counts(part.native(np.arange(18, dtype=np.uint16), np.zeros(0, np.uint32)))

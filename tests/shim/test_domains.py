@@ -177,14 +177,14 @@ def test_batches_refuse_what_is_no_number(number):
 
 
 def test_the_action_of_a_split():
-    """Nothing is ever paid, but one bit says what the other will be: only what follows shows that."""
+    """Nothing is ever paid, but an action turns a bit round: only what follows shows that."""
     agent = rlvc.Agent(2, 2, epsilon=1.0, capacity=4000, successors=True)
     random = np.random.default_rng(1)
     percept = 0
     agent.begin(bytes([percept]))
     for _ in range(2000):
         choice = agent.act()
-        following = int(random.integers(2)) | ((percept & 1) ^ choice.action) << 1
+        following = ((percept & 1) ^ choice.action) | int(random.integers(2)) << 1
         agent.observe(choice, 0.0, bytes([following]))
         percept = following
     agent.learn()

@@ -94,7 +94,6 @@ def check_refused(done, *parts):
     (["binary", "--alpha", "nan"], ["--alpha"]),
     (["binary", "--alpha-known", "2"], ["--alpha-known", "(0, 1]"]),
     (["binary", "--successors", "maybe"], ["--successors", "yes", "no"]),
-    (["binary", "--successors", "yes", "--distractors", "60"], ["successors"]),
     (["binary", "--slip", "2"], ["--slip"]),
     (["binary", "--slip", "nan"], ["--slip"]),
     (["binary", "--slip", ""], ["--slip"]),
@@ -349,9 +348,20 @@ def test_default_run_learns_the_maze(tmp_path):
     made = report(cwd=tmp_path)
     assert made["optimal_cells"] == 46
     assert made["bits_used"] == [0, 1, 2, 3, 15, 16, 17] and made["distractors_used"] == 0
+    assert made["interactions_to_optimal"] <= 2500 <= made["interactions"] == 5000
+
+
+def test_little_memory_is_enough(tmp_path):
+    made = report("--interactions", "2500", "--capacity", "1200", "--classes", "64", cwd=tmp_path)
+    assert made["optimal_cells"] == 46 and made["distractors_used"] == 0
     if "RLVC_RED_ZONES" not in os.environ:  # which lie between the arrays of the agent's block
         assert made["memory_bytes"] <= 36 * 1024
-    assert made["interactions_to_optimal"] <= made["interactions"] == 2500
+
+
+def test_many_distractors(tmp_path):
+    made = report("--interactions", "2000", "--distractors", "110", cwd=tmp_path)
+    assert made["optimal_cells"] == 46 and made["distractors_used"] == 0
+    assert made["options"]["successors"] == "yes"
 
 
 def test_returns_criterion(tmp_path):

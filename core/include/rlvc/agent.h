@@ -97,14 +97,23 @@ typedef struct rlvc_config {
      * episode, as in the paper's teleporting maze. 0: it ends there. Default 0. */
     uint8_t continuing;
 
-    /* 1: a class is also aliased if a feature of its percepts predicts a feature of the successors
-     * after the same action, even while all rewards are equal. Needs the residual criterion, a
-     * domain without an oracle, and features_max within features_at_once. Default 1 for up to 64
-     * bits, else 0. */
+    /* 1: a class is also aliased if a feature that the agent influences lasts in it, even while all
+     * rewards are equal: what s' exhibits depends on the action, and, after the same action, on
+     * what s exhibits. At most features_at_once such features are followed. Needs the residual
+     * criterion and a domain with features_max and without an oracle. Default 1 for bits, else 0.
+     */
     uint8_t successors;
 
-    uint8_t explore;     /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
-    uint8_t reserved[2]; /* 0 */
+    uint8_t explore; /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
+
+    /* 1: a feature that is new to the tree counts as fewer samples if it stays as it is from one
+     * visit to a class to the next, since what stays agrees by chance with other things that do. So
+     * percepts that come in a fixed order need more samples. Without effect unless `successors` is
+     * 1, by which what the agent influences is found. 0: the samples of a class count as
+     * independent. Default 1 for bits, else 0. */
+    uint8_t dependence;
+
+    uint8_t reserved; /* 0 */
 
     /* Discount factor, gamma of equation (1), [0, 1]. Default 0.9. */
     float discount;
@@ -114,14 +123,15 @@ typedef struct rlvc_config {
 
     /* The probability, at most, that the tree ever tests a feature while there is nothing to learn,
      * (0, 1]. All learning steps and all their tests share it (SPEC.md). Assumes that the samples
-     * of one action are independent of each other; nothing is assumed about repeated tests of the
-     * growing database. Once the tree has classes, it is the same probability for each of them.
-     * Default 0.01. */
+     * of one action are independent of each other, or that `dependence` is 1 and a feature that
+     * stays changes as a Markov chain does; nothing is assumed about repeated tests of the growing
+     * database. Once the tree has classes, it is the same probability for each of them. Default
+     * 0.01. */
     float alpha;
 
-    /* Significance level of a split by a feature that the tree already tests, and that so is no
-     * noise, (0, 1]. Below alpha's share it has no effect. Default 1: less than one split by chance
-     * is expected in a step. */
+    /* Significance level of a split by a feature that the tree already tests, or that the agent
+     * influences, and that so is no noise, (0, 1]. Below alpha's share it has no effect. Default
+     * 0.1 for bits, else 1: less than one split by chance is expected in a step. */
     float alpha_known;
 
     /* In units of reward, (0, RLVC_REWARD_MAX]. A batch solver that converges leaves values within

@@ -69,9 +69,9 @@ typedef struct rlvc_counts {
     const rlvc_count_row *row;   /* [rows] */
     const uint64_t *with;        /* [rows][features]: of how many of the row's s exhibits each */
     const rlvc_count_pair *pair; /* [pairs]; needed if follow or reward is not null */
-    /* [pairs][features + 1][features + 1]: element (i, j) counts the interactions whose s exhibits
-     * feature i - 1 and whose s' exhibits feature j - 1; i = 0 and j = 0 stand for any, and s' of a
-     * terminated interaction exhibits nothing. Needed if config.successors. */
+    /* [pairs][features + 1][features + 1]: element (i, j) counts the interactions, not terminated,
+     * whose s exhibits feature i - 1 and whose s' exhibits feature j - 1; i = 0 and j = 0 stand for
+     * any. Needed if config.successors. */
     const uint64_t *follow;
     /* [pairs]: sums of rewards, for rows whose rewards are rounded. Optional: then they are sums of
      * the rows' rewards. */
@@ -101,9 +101,11 @@ RLVC_API rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_counts_size or more; only used
  *               during the call
  * @return RLVC_OK; RLVC_E_CONFIG: the criterion is not the residual, the solver not a batch solver,
- *         the score not the gain, or the domain has its own oracle; RLVC_E_BUSY: rlvc_learn is
- * under way; RLVC_E_RANGE: *counts contradicts itself, or counts too many; RLVC_E_MEMORY;
- *         RLVC_E_MISMATCH: the tree tests a feature that is not in `tested`. */
+ *         the score not the gain, config.dependence and config.successors are 1
+ *         (counts know no order), or the domain
+ *         has its own oracle; RLVC_E_BUSY: rlvc_learn is under way; RLVC_E_RANGE: *counts
+ * contradicts itself, or counts too many; RLVC_E_MEMORY; RLVC_E_MISMATCH: the tree tests a feature
+ * that is not in `tested`. */
 RLVC_API rlvc_status rlvc_learn_counts(rlvc_agent *agent, const rlvc_counts *counts, void *memory,
                                        size_t bytes, rlvc_progress *progress);
 

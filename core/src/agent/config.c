@@ -34,8 +34,10 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
     config->actions = actions;
     if (domain->features_max > 0 && domain->features_max < RLVC_DETECT_FEATURES)
         config->features_at_once = domain->features_max;
-    config->successors = domain->kind == RLVC_DOMAIN_BITS && !domain->oracle &&
-                         domain->features_max <= config->features_at_once;
+    if (domain->kind == RLVC_DOMAIN_BITS)
+        config->alpha_known = 0.1f;
+    config->successors = domain->kind == RLVC_DOMAIN_BITS && !domain->oracle;
+    config->dependence = RLVC_HAS_DEPENDENCE && config->successors;
     return RLVC_OK;
 }
 
@@ -60,8 +62,8 @@ enum {
     WRONG_CONTINUING,
     WRONG_SUCCESSORS,
     WRONG_EXPLORE,
+    WRONG_DEPENDENCE,
     WRONG_RESERVED,
-    WRONG_RESERVED_TOO,
     WRONG_DISCOUNT,
     WRONG_EPSILON,
     WRONG_ALPHA,
@@ -79,7 +81,7 @@ static int wrong_in_domain(const rlvc_domain *domain) {
         return WRONG_DOMAIN_FEATURE_BYTES;
     if (!domain->exhibits)
         return WRONG_DOMAIN_EXHIBITS;
-    if (!domain->candidates && !domain->oracle)
+    if (!domain->candidates && !(RLVC_HAS_OWN_ORACLE && domain->oracle))
         return WRONG_DOMAIN_CANDIDATES;
     if (!domain->name)
         return WRONG_DOMAIN_NAME;
@@ -124,7 +126,7 @@ static int wrong_in_choices(const rlvc_config *config) {
         3,
         3,
         1u << RLVC_EXPLORE_UNIFORM | 1u << RLVC_EXPLORE_DIRECTED,
-        1,
+        (RLVC_DEPENDENCES)&3u,
         1};
     memcpy(choice, fields_of(config, offsetof(rlvc_config, criterion)), sizeof choice);
     for (int i = 0; i < (int)sizeof choice; i++) {
@@ -147,8 +149,7 @@ static int wrong_in_numbers(const rlvc_config *config) {
 }
 
 static int wrong_together(const rlvc_config *config, const rlvc_domain *domain) {
-    if (config->successors && (domain->features_max < 1 || domain->oracle ||
-                               domain->features_max > config->features_at_once))
+    if (config->successors && (domain->features_max < 1 || domain->oracle))
         return WRONG_SUCCESSORS_DOMAIN;
     if (config->score == RLVC_SCORE_RANKS &&
         (domain->oracle || config->capacity >= RLVC_RANK_SUM_MAX))
@@ -178,16 +179,15 @@ static const char *message_of(int wrong) {
         [WRONG_CONTINUING] = "continuing must be 0 or 1",
         [WRONG_SUCCESSORS] = "successors must be 0 or 1",
         [WRONG_EXPLORE] = "explore must be one of RLVC_EXPLORE_*",
+        [WRONG_DEPENDENCE] = "dependence must be 0 or 1",
         [WRONG_RESERVED] = "reserved must be 0",
-        [WRONG_RESERVED_TOO] = "reserved must be 0",
         [WRONG_DISCOUNT] = "discount must be within [0, 1]",
         [WRONG_EPSILON] = "epsilon must be within [0, 1]",
         [WRONG_ALPHA] = "alpha must be within (0, 1]",
         [WRONG_ALPHA_KNOWN] = "alpha_known must be within (0, 1]",
         [WRONG_TOLERANCE] = "tolerance must be within (0, 1e12]",
         [WRONG_LEARNING_RATE] = "learning_rate must be within (0, 1]",
-        [WRONG_SUCCESSORS_DOMAIN] =
-            "successors needs features_max within [1, features_at_once] and no oracle",
+        [WRONG_SUCCESSORS_DOMAIN] = "successors needs a features_max above 0 and no oracle",
         [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
     };
     return messages[wrong];

@@ -63,6 +63,20 @@ rlvc_solver_input rlvc_learner_solver_input(const rlvc_agent *agent) {
     return made;
 }
 
+/* The steps share alpha by doublings, 1, 2, 4, ... steps long: the d-th has 1 / (d (d + 1)) of it,
+ * in equal parts, and so all together have it once. In a step the two phases share alike. */
+float rlvc_learner_log_level(const rlvc_agent *agent) {
+    float steps = 1.0f; /* of the doubling */
+    uint32_t d = 1;
+    /* (k + 1) / 2, where k + 1 may not fit. */
+    for (uint32_t left = agent->step / 2u + agent->step % 2u; left != 0; left /= 2u) {
+        steps *= 2.0f;
+        d++;
+    }
+    float phases = agent->config.successors ? 2.0f : 1.0f;
+    return rlvc_ln(agent->config.alpha) - rlvc_ln((float)(d * (d + 1u)) * steps * phases);
+}
+
 static void enter(rlvc_agent *agent, uint8_t phase) {
     rlvc_learner *learner = &agent->learner;
     learner->phase = phase;
@@ -174,31 +188,38 @@ static int recognise(rlvc_agent *agent, const void *feature) {
     return 0;
 }
 
-/* ln of the level at which a feature new to the tree splits a class in this step: its share of
- * alpha. The steps share alpha by doublings, 1, 2, 4, ... steps long: the d-th has 1 / (d (d + 1))
- * of it, in equal parts, and so all together have it once. In a step the two phases share alike. */
-static float log_level(const rlvc_agent *agent) {
-    float steps = 1.0f; /* of the doubling */
-    uint32_t d = 1;
-    /* (k + 1) / 2, where k + 1 may not fit. */
-    for (uint32_t left = agent->step / 2u + agent->step % 2u; left != 0; left /= 2u) {
-        steps *= 2.0f;
-        d++;
-    }
-    float phases = agent->config.successors ? 2.0f : 1.0f;
-    return rlvc_ln(agent->config.alpha) - rlvc_ln((float)(d * (d + 1u)) * steps * phases);
+/* Whether a split that was found is to be made; -1: not known yet. A feature that the tree tests is
+ * no noise, and neither is one that the agent influences. */
+static int is_significant(rlvc_agent *agent, const rlvc_split *split, const void *feature) {
+    rlvc_learner *learner = &agent->learner;
+    float level = rlvc_learner_log_level(agent), known = rlvc_ln(agent->config.alpha_known);
+    if (!(split->log_p < (level > known ? level : known)))
+        return 0;
+    if (learner->phase == RLVC_PHASE_SUCCESSORS || recognise(agent, feature))
+        return 1;
+    if (learner->walk.compared + 1u < agent->tree.classes)
+        return -1; /* there are more features to compare with */
+    if (!(split->log_p < level))
+        return 0;
+    if (!RLVC_HAS_DEPENDENCE || learner->persistence.at == learner->end)
+        return 1; /* it is part of the p-value */
+    /* All are 0 or 1, and 1 is the residual criterion. */
+    learner->persistence.wanted =
+        agent->config.dependence & agent->config.successors & agent->config.criterion;
+    return learner->persistence.wanted ? -1 : 1;
 }
 
-/* Whether a split that was found is to be made; -1: not known yet, as the tree has more features to
- * compare with. */
-static int is_significant(rlvc_agent *agent, const rlvc_split *split, const void *feature) {
-    if (split->log_p < log_level(agent))
-        return 1;
-    if (!(split->log_p < rlvc_ln(agent->config.alpha_known)))
-        return 0;
-    if (recognise(agent, feature))
-        return 1;
-    return agent->learner.walk.compared + 1u < agent->tree.classes ? -1 : 0;
+rlvc_status rlvc_learner_weigh_persistence(rlvc_agent *agent, const void *feature, uint32_t budget,
+                                           uint32_t *used) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_persistence *persistence = &learner->persistence;
+    rlvc_status status = rlvc_persistence_step(persistence, &agent->replay, &agent->domain,
+                                               learner->end, learner->at, feature, budget, used);
+    if (persistence->at == learner->end) {
+        persistence->wanted = 0;
+        rlvc_evidence_discount(&learner->work.split.evidence, rlvc_persistence_effect(persistence));
+    }
+    return status;
 }
 
 uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature) {
@@ -216,6 +237,8 @@ uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *f
     }
     learner->searching = 0;
     learner->walk.compared = 0;
+    if (RLVC_HAS_DEPENDENCE)
+        rlvc_persistence_begin(&learner->persistence);
     learner->at++;
     return used;
 }
@@ -228,42 +251,66 @@ static void end_round(rlvc_agent *agent) {
         enter(agent, rlvc_is_incremental(config) ? RLVC_PHASE_FINISH : RLVC_PHASE_MODEL);
     else
         enter(agent, config->successors && agent->learner.phase == RLVC_PHASE_SEARCH
-                         ? RLVC_PHASE_SUCCESSORS
+                         ? RLVC_PHASE_INFLUENCE
                          : RLVC_PHASE_FINISH);
 }
 
-/* Works on class `at`: what is sought is up to the phase. */
-static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+void rlvc_learner_begin_search(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
     rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
-    int succession = learner->phase == RLVC_PHASE_SUCCESSORS;
+    const uint32_t *first = agent->values.begin.sample;
+    if (learner->phase == RLVC_PHASE_SEARCH)
+        rlvc_split_search_begin(&learner->work.split, &input,
+                                first + rlvc_values_pair(&agent->values, learner->at, 0));
+    else if (learner->phase == RLVC_PHASE_SUCCESSORS)
+        rlvc_lasting_begin(&learner->work.successors, &input, first, learner->at,
+                           learner->influenced);
+    else
+        rlvc_influence_begin(&learner->work.successors, &input, first,
+                             learner->classes * agent->space.actions,
+                             rlvc_learner_log_level(agent));
+    learner->searching = 1;
+}
+
+/* Goes on with what is sought in the phase. */
+static rlvc_status look(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
+    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
+    return learner->phase == RLVC_PHASE_SEARCH
+               ? rlvc_split_search_step(&learner->work.split, &input, budget, used)
+               : rlvc_successor_search_step(&learner->work.successors, &input,
+                                            agent->values.begin.sample, budget, used);
+}
+
+/* Works on class `at`, or on what is influenced in all. */
+static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    rlvc_learner *learner = &agent->learner;
+    const int succession = learner->phase != RLVC_PHASE_SEARCH;
+    rlvc_split split;
+    const void *feature;
     *used = 1;
-    if (!learner->searching && learner->at == learner->classes) {
+    if (learner->at == learner->classes) {
         end_round(agent);
         return RLVC_OK;
     }
     if (!learner->searching) {
-        const uint32_t *first =
-            agent->values.begin.sample + rlvc_values_pair(&agent->values, learner->at, 0);
         agent->pending[learner->at] = 0;
-        if (succession)
-            rlvc_successor_search_begin(&learner->work.successors, &input, first);
-        else
-            rlvc_split_search_begin(&learner->work.split, &input, first);
-        learner->searching = 1;
+        rlvc_learner_begin_search(agent);
     }
-    rlvc_split split;
-    const void *feature;
-    if (succession) {
-        if (!learner->work.successors.done)
-            return rlvc_successor_search_step(&learner->work.successors, &input, budget, used);
-        feature = rlvc_successor_search_result(&learner->work.successors, &agent->space, &split);
-    } else {
-        if (!learner->work.split.done)
-            return rlvc_split_search_step(&learner->work.split, &input, budget, used);
-        feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
+    if (succession ? !learner->work.successors.done : !learner->work.split.done)
+        return look(agent, budget, used);
+    if (learner->phase == RLVC_PHASE_INFLUENCE) {
+        learner->influenced = learner->work.successors.kept;
+        enter(agent, learner->influenced > 0 ? RLVC_PHASE_SUCCESSORS : RLVC_PHASE_FINISH);
+        return RLVC_OK;
     }
+    feature = succession
+                  ? rlvc_successor_search_result(&learner->work.successors, &agent->space, &split)
+                  : rlvc_split_search_result(&learner->work.split, &agent->space, &split);
+    if (RLVC_HAS_DEPENDENCE && learner->persistence.wanted)
+        return rlvc_learner_weigh_persistence(agent, feature, budget, used);
     *used = rlvc_learner_decide(agent, &split, feature);
     return RLVC_OK;
 }
@@ -367,6 +414,7 @@ static rlvc_status step_phase(rlvc_agent *agent, uint32_t budget, uint32_t *used
         *used = step_group(agent, budget);
         break;
     case RLVC_PHASE_SEARCH:
+    case RLVC_PHASE_INFLUENCE:
     case RLVC_PHASE_SUCCESSORS:
         status = step_search(agent, budget, used);
         break;

@@ -16,12 +16,13 @@ enum {
     RLVC_PHASE_GROUP,
     RLVC_PHASE_SEARCH,
     RLVC_PHASE_SUCCESSORS,
-    RLVC_PHASE_FINISH
+    RLVC_PHASE_FINISH,
+    RLVC_PHASE_INFLUENCE /* before SUCCESSORS */
 };
 
-/* A phase that looks for splits, class by class? */
+/* A phase that looks for splits, class by class, or (INFLUENCE) for what is influenced? */
 static inline int rlvc_phase_splits(uint8_t phase) {
-    return phase == RLVC_PHASE_SEARCH || phase == RLVC_PHASE_SUCCESSORS;
+    return phase >= RLVC_PHASE_SEARCH && phase != RLVC_PHASE_FINISH;
 }
 
 /* Keys of the step's samples. @param kind RLVC_CRITERION_* or RLVC_TARGET_SUCCESSOR */
@@ -36,6 +37,19 @@ rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
  * `at` is the next one.
  * @return the units used */
 uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature);
+
+/* Takes into account how long the feature stays that the search found in class `at`: counts in as
+ * much of the ring as the budget allows, a unit each.
+ * @return RLVC_OK; RLVC_E_CALLBACK. */
+rlvc_status rlvc_learner_weigh_persistence(rlvc_agent *agent, const void *feature, uint32_t budget,
+                                           uint32_t *used);
+
+/* ln of the level at which a feature new to the tree splits a class in this step, or counts as
+ * influenced: its share of alpha. O(1). */
+float rlvc_learner_log_level(const rlvc_agent *agent);
+
+/* Begins the search of the phase, in class `at` or, of INFLUENCE, in all. O(actions). */
+void rlvc_learner_begin_search(rlvc_agent *agent);
 
 /* What a solution of the step looks at. */
 rlvc_solver_input rlvc_learner_solver_input(const rlvc_agent *agent);

@@ -9,7 +9,8 @@
 static int can_learn(const rlvc_agent *agent) {
     const rlvc_config *config = &agent->config;
     return !RLVC_BY_RETURNS(config->criterion) && !rlvc_is_incremental(config) &&
-           config->score == RLVC_SCORE_GAIN && !agent->domain.oracle;
+           config->score == RLVC_SCORE_GAIN && !(config->dependence && config->successors) &&
+           !agent->domain.oracle;
 }
 
 rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts *counts, size_t *bytes) {
@@ -64,12 +65,15 @@ static void search(rlvc_agent *agent, rlvc_count_table *table, uint8_t phase) {
     learner->walk.compared = 0;
     learner->classes = agent->tree.classes;
     learner->made = 0;
+    if (phase == RLVC_PHASE_SUCCESSORS)
+        learner->influenced = rlvc_count_influence(table, agent);
     while (learner->at < learner->classes) {
         uint32_t class_id = learner->at;
         rlvc_split split;
-        const void *feature = phase == RLVC_PHASE_SEARCH
-                                  ? rlvc_count_search(table, agent, class_id, &split)
-                                  : rlvc_count_successors(table, agent, class_id, &split);
+        const void *feature =
+            phase == RLVC_PHASE_SEARCH
+                ? rlvc_count_search(table, agent, class_id, &split)
+                : rlvc_count_lasting(table, agent, class_id, learner->influenced, &split);
         while (learner->at == class_id)
             (void)rlvc_learner_decide(agent, &split, feature);
     }

@@ -19,6 +19,8 @@ void rlvc_count_table_carve(rlvc_count_table *table, rlvc_arena *arena, const rl
     table->sum = rlvc_arena_carve_bytes(arena, pairs * agent->tree.classes * sizeof *table->sum);
     table->follow = rlvc_arena_carve_bytes(
         arena, agent->config.successors ? pairs * width * width * sizeof *table->follow : 0);
+    table->influence = rlvc_arena_carve(arena, counts->features, sizeof *table->influence);
+    table->influenced = rlvc_arena_carve(arena, counts->features, sizeof *table->influenced);
     table->scratch = rlvc_arena_carve(arena, 1, RLVC_SORT_SCRATCH_BYTES);
     table->place = rlvc_arena_carve(arena, agent->tree.classes, sizeof *table->place);
     table->now = rlvc_arena_carve(arena, counts->rows, sizeof *table->now);

@@ -4,6 +4,7 @@
 #define RLVC_SRC_COUNTS_TABLE_H
 
 #include "../agent/state.h"
+#include "../split/successor_evidence.h"
 #include "rlvc/counts.h"
 
 /* A transition is stored in parts of at most so many interactions, as its count has 32 bits. */
@@ -12,17 +13,19 @@
 /* The caller's memory. Samples are {key, row}, as those of the ring are {key, slot}. */
 typedef struct rlvc_count_table {
     const rlvc_counts *counts;
-    rlvc_sample *sample;         /* [rows] by class and action: begin.sample of the values */
-    rlvc_transition *transition; /* [rows + parts] likewise: begin.transition */
-    rlvc_exact_sum *sum;         /* [classes][actions] of rewards */
-    uint64_t *follow;            /* [actions][features + 1][features + 1] of a class */
-    uint32_t *scratch;           /* RLVC_SORT_SCRATCH_BYTES */
-    uint32_t *place;             /* [classes] which bit of a cell tells a split's feature */
-    uint16_t *now;               /* [rows] class of s, */
-    uint16_t *next;              /* [rows] of s', RLVC_NO_CLASS if terminated, */
-    uint16_t *pair;              /* [pairs] and of a pair's s */
-    rlvc_count *cuts;            /* [actions] cutpoints of the class at work */
-    uint8_t *cut;                /* [rows] whether a cluster of targets begins with a sample */
+    rlvc_sample *sample;                /* [rows] by class and action: begin.sample of the values */
+    rlvc_transition *transition;        /* [rows + parts] likewise: begin.transition */
+    rlvc_exact_sum *sum;                /* [classes][actions] of rewards */
+    uint64_t *follow;                   /* [actions][features + 1][features + 1] of a class */
+    rlvc_successor_evidence *influence; /* [features] */
+    uint32_t *influenced;               /* [features] */
+    uint32_t *scratch;                  /* RLVC_SORT_SCRATCH_BYTES */
+    uint32_t *place;                    /* [classes] which bit of a cell tells a split's feature */
+    uint16_t *now;                      /* [rows] class of s, */
+    uint16_t *next;                     /* [rows] of s', RLVC_NO_CLASS if terminated, */
+    uint16_t *pair;                     /* [pairs] and of a pair's s */
+    rlvc_count *cuts;                   /* [actions] cutpoints of the class at work */
+    uint8_t *cut; /* [rows] whether a cluster of targets begins with a sample */
 } rlvc_count_table;
 
 /* Carves the arrays; without a block it only counts. O(rows). */
@@ -56,9 +59,13 @@ void rlvc_count_model(rlvc_count_table *table, rlvc_agent *agent);
 const void *rlvc_count_search(rlvc_count_table *table, rlvc_agent *agent, uint32_t class_id,
                               rlvc_split *about);
 
-/* The feature that predicts what follows, like rlvc_successor_search_result.
+/* Finds the features that the agent influences (split/successor_search.h).
+ * @return how many, which table->influenced begins with. */
+uint32_t rlvc_count_influence(rlvc_count_table *table, const rlvc_agent *agent);
+
+/* What lasts in a class, of these, like rlvc_successor_search_result.
  * @return the feature, or null. */
-const void *rlvc_count_successors(rlvc_count_table *table, const rlvc_agent *agent,
-                                  uint32_t class_id, rlvc_split *about);
+const void *rlvc_count_lasting(rlvc_count_table *table, const rlvc_agent *agent, uint32_t class_id,
+                               uint32_t influenced, rlvc_split *about);
 
 #endif

@@ -128,6 +128,14 @@ static inline void rlvc_evidence_test_pooled(rlvc_evidence *evidence) {
     (void)rlvc_chi2_survival(pooled->statistic, pooled->degrees, NULL, &evidence->pooled_log_p);
 }
 
+/* Makes both as if each statistic rested on `effect` times fewer samples, effect >= 1. An exact
+ * p-value has no statistic, but its logarithm goes as one does. O(degrees). */
+static inline void rlvc_evidence_discount(rlvc_evidence *evidence, float effect) {
+    evidence->per_action_log_p /= effect;
+    evidence->pooled.statistic /= effect;
+    rlvc_evidence_test_pooled(evidence); /* without a table there is none, and nothing changes */
+}
+
 /* Fills action, samples, log_tests, score and log_p of *about, once all that is to be tested is.
  * More samples than 2^32 - 1 are given as that. O(1). */
 static inline void rlvc_evidence_result(const rlvc_evidence *evidence, uint32_t actions,

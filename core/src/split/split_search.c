@@ -41,8 +41,9 @@ void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_c
     if (columns < RLVC_SORT_SCRATCH_BYTES / sizeof *space->columns)
         columns = RLVC_SORT_SCRATCH_BYTES / sizeof *space->columns;
     space->rows.sample = rlvc_arena_carve(arena, slots, sizeof *space->rows.sample);
-    space->bits.cutpoints = rlvc_arena_carve(arena, words, sizeof *space->bits.cutpoints);
+    space->cutpoints = rlvc_arena_carve(arena, words, sizeof *space->cutpoints);
     space->columns = rlvc_arena_carve(arena, columns, sizeof *space->columns);
+    space->column_words = columns;
     space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
     space->per_action = rlvc_arena_carve(arena, 1, feature_bytes);
     space->pooled = rlvc_arena_carve(arena, 1, feature_bytes);
@@ -79,37 +80,6 @@ static void open_sort(rlvc_split_cursor *search, const rlvc_workspace *space) {
     enter(search, SORT);
 }
 
-uint32_t rlvc_split_input_open(const rlvc_split_input *input, const uint32_t *first,
-                               rlvc_samples *view) {
-    const rlvc_workspace *space = input->space;
-    uint32_t words = 0;
-    view->percepts = input->replay->percept;
-    view->percept_bytes = input->replay->percept_bytes;
-    view->sample = space->rows.sample + first[0];
-    view->count = first[space->actions] - first[0];
-    for (uint32_t a = 0; a < space->actions; a++) {
-        rlvc_group *group = &space->group[a];
-        group->begin = first[a] - first[0];
-        group->end = first[a + 1u] - first[0];
-        group->cuts = 0;
-        group->word = words;
-        words += (size_of(group) + 63u) / 64u;
-    }
-    return words;
-}
-
-rlvc_status rlvc_split_input_propose(const rlvc_split_input *input, const rlvc_samples *view,
-                                     uint32_t first, uint32_t *written) {
-    const rlvc_workspace *space = input->space;
-    const rlvc_domain *domain = input->domain;
-    *written = 0;
-    return domain->candidates(domain->ctx, view, first, space->features_at_once, space->features,
-                              written) == 0 &&
-                   *written <= space->features_at_once
-               ? RLVC_OK
-               : RLVC_E_CALLBACK;
-}
-
 rlvc_status rlvc_split_input_exhibits(const rlvc_split_input *input, uint32_t slot,
                                       const void *feature, uint8_t *present) {
     const rlvc_domain *domain = input->domain;
@@ -120,11 +90,51 @@ rlvc_status rlvc_split_input_exhibits(const rlvc_split_input *input, uint32_t sl
                : RLVC_E_CALLBACK;
 }
 
+rlvc_status rlvc_split_input_detect(const rlvc_split_input *input, const rlvc_samples *view,
+                                    uint32_t *at, const unsigned char *features, uint32_t block,
+                                    uint64_t *word, uint32_t stride, uint32_t *used) {
+    const rlvc_domain *domain = input->domain;
+    uint64_t bits[RLVC_DETECT_FEATURES];
+    uint32_t left = view->count - *at;
+    uint32_t n = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
+    if (domain->detect) {
+        if (domain->detect(domain->ctx, view, *at, n, features, block, bits) != 0)
+            return RLVC_E_CALLBACK;
+        for (uint32_t j = 0; j < block; j++) /* a bit beyond the samples would be counted */
+            word[(size_t)j * stride] = bits[j] & UINT64_MAX >> (64u - n);
+    } else {
+        n = 1;
+        for (uint32_t j = 0; j < block; j++) {
+            uint8_t present;
+            rlvc_status status = rlvc_split_input_exhibits(
+                input, view->sample[*at].slot, features + (size_t)j * input->space->feature_bytes,
+                &present);
+            if (status != RLVC_OK)
+                return status;
+            rlvc_bit_append(word + (size_t)j * stride, *at % 64u, present);
+        }
+    }
+    *used = domain->detect ? n : block;
+    *at += n;
+    return RLVC_OK;
+}
+
 void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *input,
                              const uint32_t *first) {
     const rlvc_workspace *space = input->space;
     memset(search, 0, sizeof *search);
-    search->words = rlvc_split_input_open(input, first, &search->view);
+    search->view.percepts = input->replay->percept;
+    search->view.percept_bytes = input->replay->percept_bytes;
+    search->view.sample = space->rows.sample + first[0];
+    search->view.count = first[space->actions] - first[0];
+    for (uint32_t a = 0; a < space->actions; a++) {
+        rlvc_group *group = &space->group[a];
+        group->begin = first[a] - first[0];
+        group->end = first[a + 1u] - first[0];
+        group->cuts = 0;
+        group->word = search->words;
+        search->words += (size_of(group) + 63u) / 64u;
+    }
     if (search->view.count < input->min_samples)
         enter(search, DONE);
     else
@@ -139,7 +149,7 @@ static void end_marking(rlvc_split_cursor *search, const rlvc_split_input *input
     if (search->evidence.groups == 0 || search->evidence.samples < input->min_samples)
         enter(search, DONE);
     else
-        enter(search, input->domain->oracle ? ASK : PROPOSE);
+        enter(search, RLVC_HAS_OWN_ORACLE && input->domain->oracle ? ASK : PROPOSE);
 }
 
 /* Goes on to the next group. */
@@ -159,7 +169,7 @@ static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input
 static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, uint32_t budget) {
     rlvc_group *group = &input->space->group[search->action];
     const rlvc_sample *sample = search->view.sample + group->begin;
-    uint64_t *cuts = input->space->bits.cutpoints + group->word;
+    uint64_t *cuts = input->space->cutpoints + group->word;
     uint32_t from = search->at, left = size_of(group) - from;
     uint32_t to = from + (left < budget ? left : budget);
     for (uint32_t at = from; at < to; at++) {
@@ -192,10 +202,12 @@ static void next_group(rlvc_split_cursor *search, const rlvc_workspace *space, u
 static rlvc_status propose(rlvc_split_cursor *search, const rlvc_split_input *input) {
     static const rlvc_pooled nothing = {0.0f, 0.0f, 0.0f, 0};
     const rlvc_workspace *space = input->space;
-    uint32_t written;
-    rlvc_status status = rlvc_split_input_propose(input, &search->view, search->first, &written);
-    if (status != RLVC_OK)
-        return status;
+    const rlvc_domain *domain = input->domain;
+    uint32_t written = 0;
+    if (domain->candidates(domain->ctx, &search->view, search->first, space->features_at_once,
+                           space->features, &written) != 0 ||
+        written > space->features_at_once)
+        return RLVC_E_CALLBACK;
     search->block = written;
     search->action = 0;
     for (uint32_t j = 0; j < written; j++)
@@ -207,44 +219,6 @@ static rlvc_status propose(rlvc_split_cursor *search, const rlvc_split_input *in
     return RLVC_OK;
 }
 
-/* 64 samples and the whole block by the domain's batch detector. */
-static rlvc_status detect_batch(rlvc_split_cursor *search, const rlvc_split_input *input,
-                                const rlvc_group *group, uint32_t *used) {
-    uint64_t bits[RLVC_DETECT_FEATURES];
-    const rlvc_domain *domain = input->domain;
-    uint32_t left = size_of(group) - search->at;
-    uint32_t n = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
-    if (domain->detect(domain->ctx, &search->view, group->begin + search->at, n,
-                       input->space->features, search->block, bits) != 0)
-        return RLVC_E_CALLBACK;
-    for (uint32_t j = 0; j < search->block; j++) {
-        uint64_t *column = rlvc_workspace_column(input->space, search->words, j);
-        /* A bit beyond the samples would be counted. */
-        column[group->word + search->at / 64u] = bits[j] & UINT64_MAX >> (64u - n);
-    }
-    search->at += n;
-    *used = n;
-    return RLVC_OK;
-}
-
-/* One sample and the whole block by the feature detector. */
-static rlvc_status detect_each(rlvc_split_cursor *search, const rlvc_split_input *input,
-                               const rlvc_group *group, uint32_t *used) {
-    uint32_t slot = search->view.sample[group->begin + search->at].slot;
-    for (uint32_t j = 0; j < search->block; j++) {
-        uint8_t present;
-        rlvc_status status = rlvc_split_input_exhibits(
-            input, slot, rlvc_workspace_feature(input->space, j), &present);
-        if (status != RLVC_OK)
-            return status;
-        uint64_t *column = rlvc_workspace_column(input->space, search->words, j);
-        rlvc_bit_append(column + group->word, search->at, present);
-    }
-    search->at++;
-    *used = search->block;
-    return RLVC_OK;
-}
-
 /* Begins to scan the column that search->column names. Where there is but one group, a column that
  * cannot beat the best so far need not be scanned to the end; else its own best counts, for the
  * sum. */
@@ -253,15 +227,18 @@ static void open_column(rlvc_split_cursor *search, const rlvc_split_input *input
     const rlvc_workspace *space = input->space;
     rlvc_cutpoint_begin(&search->inner.scan,
                         rlvc_workspace_column(space, search->words, search->column) + group->word,
-                        space->bits.cutpoints + group->word, size_of(group), input->by_ranks,
+                        space->cutpoints + group->word, size_of(group), input->by_ranks,
                         search->evidence.groups == 1 ? search->evidence.per_action.score : 0.0f);
 }
 
 static rlvc_status detect(rlvc_split_cursor *search, const rlvc_split_input *input,
                           uint32_t *used) {
-    const rlvc_group *group = &input->space->group[search->action];
-    rlvc_status status = input->domain->detect ? detect_batch(search, input, group, used)
-                                               : detect_each(search, input, group, used);
+    const rlvc_workspace *space = input->space;
+    const rlvc_group *group = &space->group[search->action];
+    const rlvc_samples view = view_of(search, group);
+    rlvc_status status = rlvc_split_input_detect(
+        input, &view, &search->at, space->features, search->block,
+        space->columns + group->word + search->at / 64u, search->words | 1u, used);
     if (status == RLVC_OK && search->at == size_of(group)) {
         open_column(search, input, group);
         enter(search, SCAN);
@@ -330,7 +307,7 @@ static rlvc_status ask(rlvc_split_cursor *search, const rlvc_split_input *input)
         next_group(search, space, ASK, TEST_PER_ACTION);
         return RLVC_OK;
     }
-    if (space->bits.cutpoints[group->word + at / 64u] >> at % 64u & 1u) {
+    if (space->cutpoints[group->word + at / 64u] >> at % 64u & 1u) {
         static const rlvc_answer nothing = {0, 0, 0, 0};
         rlvc_samples view = view_of(search, group);
         rlvc_answer *answer = &search->inner.answer;
@@ -378,6 +355,10 @@ static rlvc_status answer(rlvc_split_cursor *search, const rlvc_split_input *inp
     return RLVC_OK;
 }
 
+static rlvc_status consult(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    return search->phase == ASK ? ask(search, input) : answer(search, input);
+}
+
 /* ------------------------------------------------------------------ the whole */
 
 /* Finds the p-value of one of the winners, if there are any. */
@@ -423,9 +404,8 @@ static rlvc_status advance(rlvc_split_cursor *search, const rlvc_split_input *in
         close_feature(search, input->space);
         return RLVC_OK;
     case ASK:
-        return ask(search, input);
     case ANSWER:
-        return answer(search, input);
+        return RLVC_HAS_OWN_ORACLE ? consult(search, input) : RLVC_OK;
     default:
         *used = test(search, input);
         return RLVC_OK;

@@ -49,13 +49,11 @@ typedef struct rlvc_group {
 
 /* The memory of a search. */
 typedef struct rlvc_workspace {
-    rlvc_rows rows; /* [capacity + 1] */
-    union {
-        uint64_t *cutpoints;   /* where a cluster of targets begins */
-        uint64_t *successors;  /* whose s' exhibits a feature: see successor_search.c */
-    } bits;                    /* [words] a bit for each sample */
-    uint64_t *columns;         /* [features_at_once][words | 1], and scratch for sorting */
-    unsigned char *features;   /* [features_at_once] the block of candidates */
+    rlvc_rows rows;          /* [capacity + 1] */
+    uint64_t *cutpoints;     /* [words] a bit for each sample: where a cluster of targets begins */
+    uint64_t *columns;       /* [features_at_once][words | 1], and scratch */
+    uint32_t column_words;   /* of all columns */
+    unsigned char *features; /* [features_at_once] the block of candidates */
     unsigned char *per_action; /* the winner per_action, */
     unsigned char *pooled;     /* and together */
     rlvc_group *group;         /* [actions] */
@@ -118,21 +116,19 @@ typedef struct rlvc_split_input {
     uint8_t by_ranks; /* config.score is RLVC_SCORE_RANKS */
 } rlvc_split_input;
 
-/* Opens the class whose samples after action a are [first[a], first[a + 1]) of all: *view becomes
- * the class, and the workspace's groups are laid out.
- * @return the words of a column. O(actions). */
-uint32_t rlvc_split_input_open(const rlvc_split_input *input, const uint32_t *first,
-                               rlvc_samples *view);
-
-/* Asks for the class's candidates from number `first` on, into the workspace's block.
- * @return RLVC_OK; RLVC_E_CALLBACK: *written means nothing. */
-rlvc_status rlvc_split_input_propose(const rlvc_split_input *input, const rlvc_samples *view,
-                                     uint32_t first, uint32_t *written);
-
 /* Does the percept in a slot exhibit a feature?
  * @return RLVC_OK; RLVC_E_CALLBACK. */
 rlvc_status rlvc_split_input_exhibits(const rlvc_split_input *input, uint32_t slot,
                                       const void *feature, uint8_t *present);
+
+/* Detects a block of features in samples of a view from number *at on, which becomes that of the
+ * next: with the domain's detect(), up to 64 and as many as there are, *at a multiple of 64; else
+ * in one. For sample i the bit i % 64 of word[j * stride] becomes 1 if it exhibits feature j, and
+ * the bits after the last become 0. *used becomes the work.
+ * @return RLVC_OK; RLVC_E_CALLBACK: *at unchanged. */
+rlvc_status rlvc_split_input_detect(const rlvc_split_input *input, const rlvc_samples *view,
+                                    uint32_t *at, const unsigned char *features, uint32_t block,
+                                    uint64_t *word, uint32_t stride, uint32_t *used);
 
 /* Begins the search in a class whose groups are first[0], first[1], ..., first[actions] of the
  * workspace's samples. O(actions). */

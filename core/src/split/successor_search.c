@@ -1,217 +1,240 @@
 /* SPDX-License-Identifier: MIT */
-/* The search for a feature that predicts the successors: see successor_search.h.
+/* The search for what an action influences, and for what lasts: see successor_search.h.
  *
- * Phases: the candidates are asked for (PROPOSE), and the column of each f is made (NOW). Then, for
- * each g, its column over the successors (NEXT), in the place of the cutpoints, and, for each f and
- * each action, a table (COUNT, TABLE). The winner gets its p-value (TEST). */
+ * Phases: a block of candidates is asked for (PROPOSE), unless the block is given. Then, for each
+ * class and action, each sample is looked at (COUNT), and what was counted is weighed (WEIGH).
+ * After the last pair each feature is tested (TEST). The counts lie in the memory of the columns.
+ */
 #include "rlvc/float_rules.h"
 
 #include "successor_search.h"
 
-#include "../base/popcount.h"
+#include "successor_evidence.h"
 #include <string.h>
 
-enum { PROPOSE, NOW, NEXT, COUNT, TABLE, TEST, DONE };
+enum { PROPOSE, COUNT, WEIGH, TEST, DONE };
 
-/* What a word of a table, and a table, are charged. */
-#define WORD_UNITS 2u
-#define TABLE_UNITS 24u
+/* What weighing a feature is charged: two tables. */
+#define WEIGH_UNITS 16u
+
+/* Of each feature of the block. The same number fits on every target, as a snapshot asks for the
+ * same blocks. */
+typedef struct tally {
+    rlvc_following action; /* of the pair at work */
+    rlvc_successor_evidence evidence;
+} tally;
+#define TALLY_WORDS 9u
+typedef char tally_fits[sizeof(tally) <= TALLY_WORDS * 8u ? 1 : -1];
+
+static tally *tally_of(const rlvc_split_input *input, uint32_t j) {
+    return (tally *)(void *)input->space->columns + j;
+}
+
+static void *feature_of(const rlvc_successor_cursor *search, const rlvc_split_input *input,
+                        uint32_t j) {
+    return rlvc_workspace_feature(input->space, search->kept + j);
+}
 
 static void enter(rlvc_successor_cursor *search, uint8_t phase) {
     search->phase = phase;
-    search->action = 0;
-    search->at = 0;
+    search->feature = 0;
     search->done = phase == DONE;
 }
 
-void rlvc_successor_search_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
-                                 const uint32_t *first) {
+/* Begins to count in the pairs from search->pair on. */
+static void open_pairs(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                       uint32_t block) {
+    search->block = block;
+    memset(tally_of(input, 0), 0, block * sizeof(tally));
+    enter(search, block > 0 ? COUNT : DONE);
+}
+
+static void open_block(rlvc_successor_cursor *search, const rlvc_split_input *input) {
+    uint32_t room = input->space->features_at_once - search->kept;
+    search->room = room < search->room ? room : search->room;
+    enter(search, room > 0 ? PROPOSE : DONE);
+}
+
+static void begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                  const uint32_t *first, uint32_t pair, uint32_t end) {
     memset(search, 0, sizeof *search);
-    search->words = rlvc_split_input_open(input, first, &search->view);
-    enter(search, search->view.count < input->min_samples ? DONE : PROPOSE);
+    search->view.percepts = input->replay->percept;
+    search->view.percept_bytes = input->replay->percept_bytes;
+    search->view.sample = input->space->rows.sample;
+    search->view.count = first[end];
+    search->pair = pair;
+    search->end = end;
+    search->at = first[pair];
+    search->samples = first[end] - first[pair];
+    search->room = input->space->column_words / TALLY_WORDS;
+}
+
+void rlvc_influence_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                          const uint32_t *first, uint32_t pairs, float log_level) {
+    begin(search, input, first, 0, pairs);
+    search->log_level = log_level - rlvc_successor_evidence_log_tests(input->domain->features_max);
+    open_block(search, input);
+}
+
+void rlvc_lasting_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                        const uint32_t *first, uint32_t class_id, uint32_t features) {
+    const uint32_t actions = input->space->actions, pair = class_id * actions;
+    begin(search, input, first, pair, pair + actions);
+    open_pairs(search, input, search->samples < input->min_samples ? 0 : features);
 }
 
 static rlvc_status propose(rlvc_successor_cursor *search, const rlvc_split_input *input) {
-    uint32_t written;
-    rlvc_status status = rlvc_split_input_propose(input, &search->view, 0, &written);
-    if (status != RLVC_OK)
-        return status;
-    search->features = written;
-    enter(search, written > 0 ? NOW : DONE);
+    const rlvc_domain *domain = input->domain;
+    uint32_t written = 0;
+    if (domain->candidates(domain->ctx, &search->view, search->first, search->room,
+                           feature_of(search, input, 0), &written) != 0 ||
+        written > search->room)
+        return RLVC_E_CALLBACK;
+    search->pair = 0;
+    search->at = 0;
+    open_pairs(search, input, written);
     return RLVC_OK;
 }
 
-static uint64_t *now_column(const rlvc_successor_cursor *search, const rlvc_workspace *space) {
-    return rlvc_workspace_column(space, search->words, search->now);
-}
-
-/* ------------------------------------------------------------------ columns */
-
-/* Does s, or s', of sample i of the class exhibit a feature? */
-static rlvc_status exhibits(const rlvc_successor_cursor *search, const rlvc_split_input *input,
-                            uint32_t i, uint8_t *present) {
+/* Looks for feature `feature` in the sample at work and in what follows it. */
+static rlvc_status count(rlvc_successor_cursor *search, const rlvc_split_input *input) {
     const rlvc_replay *replay = input->replay;
-    uint32_t slot = search->view.sample[i].slot;
-    uint32_t j = search->phase == NOW ? search->now : search->next;
-    if (search->phase == NEXT) {
-        *present = 0;
-        if (!rlvc_replay_linked(replay, slot))
-            return RLVC_OK;
-        slot = rlvc_replay_next(replay, slot);
-    }
-    return rlvc_split_input_exhibits(input, slot, rlvc_workspace_feature(input->space, j), present);
-}
-
-/* A column is complete. */
-static void close_column(rlvc_successor_cursor *search) {
-    if (search->phase == NOW && ++search->now < search->features) {
-        enter(search, NOW);
-        return;
-    }
-    uint8_t then = search->phase == NOW ? NEXT : COUNT;
-    search->now = 0;
-    enter(search, then);
-}
-
-/* Sets the bits of up to `budget` samples of the group at work, and goes on to the next group. */
-static rlvc_status fill(rlvc_successor_cursor *search, const rlvc_split_input *input,
-                        uint32_t budget, uint32_t *used) {
-    const rlvc_workspace *space = input->space;
-    const rlvc_group *group = &space->group[search->action];
-    uint64_t *word =
-        (search->phase == NOW ? now_column(search, space) : space->bits.successors) + group->word;
-    uint32_t size = group->end - group->begin;
-    for (*used = 0; *used < budget && search->at < size; ++*used) {
-        uint32_t at = search->at;
-        uint8_t present = 0;
-        rlvc_status status = exhibits(search, input, group->begin + at, &present);
+    const uint32_t slot = search->view.sample[search->at].slot;
+    const void *feature = feature_of(search, input, search->feature);
+    uint8_t now = 0, next = 0;
+    rlvc_status status = RLVC_OK;
+    if (rlvc_replay_linked(replay, slot)) {
+        status = rlvc_split_input_exhibits(input, slot, feature, &now);
+        if (status == RLVC_OK)
+            status =
+                rlvc_split_input_exhibits(input, rlvc_replay_next(replay, slot), feature, &next);
         if (status != RLVC_OK)
             return status;
-        rlvc_bit_append(word, at, present);
+        tally_of(input, search->feature)->action.n[now != 0][next != 0]++;
+    }
+    if (++search->feature == search->block) {
+        search->feature = 0;
         search->at++;
     }
-    if (search->at < size)
-        return RLVC_OK;
-    *used += *used == 0; /* an empty group */
-    search->at = 0;
-    if (++search->action == space->actions)
-        close_column(search);
     return RLVC_OK;
 }
 
-/* ------------------------------------------------------------------ tables */
+/* ------------------------------------------------------------------ evidence */
 
-/* Counts up to `most` words of the group at work. Returns how many. */
-static uint32_t count(rlvc_successor_cursor *search, const rlvc_workspace *space, uint32_t most) {
-    const rlvc_group *group = &space->group[search->action];
-    const uint64_t *now = now_column(search, space) + group->word;
-    const uint64_t *next = space->bits.successors + group->word;
-    uint32_t words = (group->end - group->begin + 63u) / 64u;
-    uint32_t from = search->at, left = words - from;
-    uint32_t to = from + (left < most ? left : most);
-    for (uint32_t i = from; i < to; i++) {
-        uint64_t both = now[i] & next[i];
-        search->with_now += rlvc_popcount(now + i, 1);
-        search->with_next += rlvc_popcount(next + i, 1);
-        search->with_both += rlvc_popcount(&both, 1);
+/* Weighs some features of the block; after the last, goes on to the next pair. */
+static uint32_t weigh(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                      uint32_t budget) {
+    uint32_t used = 0;
+    int last = (search->pair + 1u) % input->space->actions == 0;
+    for (; search->feature < search->block && budget - used >= WEIGH_UNITS; used += WEIGH_UNITS) {
+        tally *feature = tally_of(input, search->feature++);
+        if (search->log_level < 0.0f)
+            rlvc_influence_add(&feature->evidence, &feature->action, last);
+        else
+            rlvc_lasting_add(&feature->evidence, &feature->action);
+        memset(&feature->action, 0, sizeof feature->action);
     }
-    search->at = to;
-    if (to == words)
-        search->phase = TABLE;
-    return to == from ? 1u : to - from; /* 1 for an empty group */
+    if (search->feature == search->block)
+        enter(search, ++search->pair < search->end ? COUNT : TEST);
+    return used;
 }
 
-/* The sums of a pair are complete: goes on to the next pair. */
-static void close_pair(rlvc_successor_cursor *search) {
-    rlvc_successor_pair_close(&search->sum, search->now, search->next, search->features,
-                              &search->best);
-    if (++search->now < search->features) {
-        enter(search, COUNT);
+/* Takes a feature of the block that is influenced: it moves to those that passed. */
+static void pass(rlvc_successor_cursor *search, const rlvc_split_input *input, uint32_t j) {
+    memmove(feature_of(search, input, search->passed++), feature_of(search, input, j),
+            input->space->feature_bytes);
+}
+
+static void close_block(rlvc_successor_cursor *search, const rlvc_split_input *input) {
+    search->first += search->block;
+    search->kept += search->passed;
+    search->passed = 0;
+    if (search->block < search->room)
+        enter(search, DONE);
+    else
+        open_block(search, input);
+}
+
+/* Tests a feature of the block. */
+static void test(rlvc_successor_cursor *search, const rlvc_split_input *input) {
+    const uint32_t j = search->feature++;
+    const rlvc_successor_evidence *evidence = &tally_of(input, j)->evidence;
+    const int influence = search->log_level < 0.0f;
+    float log_p = rlvc_successor_evidence_log_p(evidence);
+    if (influence && log_p < search->log_level)
+        pass(search, input, j);
+    if (!influence && log_p < search->log_p) {
+        search->best = j;
+        search->statistic = evidence->statistic;
+        search->log_p = log_p;
+    }
+    if (search->feature < search->block)
         return;
-    }
-    search->now = 0;
-    enter(search, ++search->next < search->features ? NEXT : TEST);
-}
-
-/* Weighs the table of one action. */
-static void weigh(rlvc_successor_cursor *search, const rlvc_workspace *space) {
-    const rlvc_group *group = &space->group[search->action];
-    rlvc_successor_pair_add(&search->sum, group->end - group->begin, search->with_now,
-                            search->with_next, search->with_both);
-    search->with_both = 0;
-    search->with_now = 0;
-    search->with_next = 0;
-    search->at = 0;
-    search->phase = COUNT;
-    if (++search->action == space->actions)
-        close_pair(search);
+    if (influence)
+        close_block(search, input);
+    else
+        enter(search, DONE);
 }
 
 /* ------------------------------------------------------------------ the whole */
 
 static rlvc_status advance(rlvc_successor_cursor *search, const rlvc_split_input *input,
-                           uint32_t budget, uint32_t *used) {
+                           const uint32_t *first, uint32_t budget, uint32_t *used) {
     switch (search->phase) {
     case PROPOSE:
         *used = 1;
         return propose(search, input);
-    case NOW:
-    case NEXT:
-        return fill(search, input, budget, used);
     case COUNT:
-        *used = WORD_UNITS * count(search, input->space, budget / WORD_UNITS);
+        *used = 2;
+        if (search->at < first[search->pair + 1u])
+            return count(search, input);
+        enter(search, WEIGH);
         return RLVC_OK;
-    case TABLE:
-        *used = TABLE_UNITS;
-        weigh(search, input->space);
+    case WEIGH:
+        *used = weigh(search, input, budget);
         return RLVC_OK;
     default:
         *used = RLVC_TEST_UNITS;
-        search->log_p = rlvc_successor_pair_log_p(&search->best);
-        enter(search, DONE);
+        test(search, input);
         return RLVC_OK;
     }
 }
 
-static uint32_t needed(const rlvc_successor_cursor *search) {
-    if (search->phase == TEST)
-        return RLVC_TEST_UNITS;
-    if (search->phase == COUNT)
-        return WORD_UNITS;
-    return search->phase == TABLE ? TABLE_UNITS : 1u;
-}
-
 rlvc_status rlvc_successor_search_step(rlvc_successor_cursor *search, const rlvc_split_input *input,
-                                       uint32_t budget, uint32_t *used) {
+                                       const uint32_t *first, uint32_t budget, uint32_t *used) {
     *used = 0;
-    while (!search->done && budget - *used >= needed(search)) {
+    while (!search->done && budget - *used >= RLVC_BUDGET_MIN) {
         uint32_t units = 0;
-        rlvc_status status = advance(search, input, budget - *used, &units);
-        *used += units;
+        rlvc_status status = advance(search, input, first, budget - *used, &units);
         if (status != RLVC_OK)
             return status;
+        *used += units;
     }
     return RLVC_OK;
 }
 
 rlvc_status rlvc_successor_search_single(rlvc_successor_cursor *search,
-                                         const rlvc_split_input *input) {
+                                         const rlvc_split_input *input, const uint32_t *first) {
     uint32_t used = 0;
-    return advance(search, input, search->phase == COUNT ? WORD_UNITS : 1u, &used);
+    return advance(search, input, first, WEIGH_UNITS, &used);
 }
 
 void rlvc_successor_search_mark(const rlvc_successor_cursor *search, uint32_t word[5]) {
     word[0] = search->phase;
-    word[1] = search->next;
-    word[2] = search->now;
-    word[3] = search->action;
-    word[4] = search->at;
+    word[1] = search->first;
+    word[2] = search->pair;
+    word[3] = search->at;
+    word[4] = search->feature;
 }
 
 const void *rlvc_successor_search_result(const rlvc_successor_cursor *search,
                                          const rlvc_workspace *space, rlvc_split *about) {
-    if (!rlvc_successor_pair_result(&search->best, search->log_p, search->features,
-                                    search->view.count, space->actions, about))
+    if (!(search->log_p < 0.0f))
         return NULL;
-    return rlvc_workspace_feature(space, search->best.feature);
+    about->action = space->actions + 1u;
+    about->samples = search->samples;
+    about->score = search->statistic / (float)search->samples;
+    about->log_tests = rlvc_successor_evidence_log_tests(search->block);
+    about->log_p = search->log_p + about->log_tests;
+    return rlvc_workspace_feature(space, search->best);
 }

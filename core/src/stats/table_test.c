@@ -147,6 +147,12 @@ float rlvc_table_statistic(const rlvc_table *table) {
     return expects_below(table, EXPECTED_IN_SUM) ? 2.0f * likelihood(table) : pearson(table);
 }
 
+float rlvc_table_least(const rlvc_table *table) {
+    float n = (float)(table->a + table->b + table->c + table->d);
+    float x = pearson(table) * ((n - 1.0f) / n), g = 2.0f * likelihood(table);
+    return x < g ? x : g;
+}
+
 rlvc_status rlvc_fisher_table(uint32_t a, uint32_t b, uint32_t c, uint32_t d, float *p,
                               float *log_p) {
     const rlvc_table table = {a, b, c, d};

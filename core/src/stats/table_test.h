@@ -23,4 +23,10 @@ float rlvc_table_log_p(const rlvc_table *table);
 /* What such a table adds to a sum: a statistic of one degree of freedom. O(1). */
 float rlvc_table_statistic(const rlvc_table *table);
 
+/* What it adds to a sum of very many tables, however small: the least of G^2 and Pearson's
+ * statistic times (N - 1) / N, N samples in all. That has a mean of exactly 1 if rows and columns
+ * are independent, given their sums. So the sum has no bias that would grow with it, and a rare
+ * count no more than its own tail. O(1). */
+float rlvc_table_least(const rlvc_table *table);
+
 #endif

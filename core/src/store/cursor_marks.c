@@ -20,9 +20,13 @@ void rlvc_cursor_marks_take(const rlvc_agent *agent, rlvc_cursor_mark *mark) {
         rlvc_solver_mark(&learner->work.solver, mark->word);
     else if (learner->phase == RLVC_PHASE_NOVELTY)
         rlvc_novelty_mark(&learner->work.novelty, mark->word);
-    else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching)
+    else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching) {
         rlvc_split_search_mark(&learner->work.split, mark->word);
-    else if (learner->phase == RLVC_PHASE_SUCCESSORS && learner->searching)
+        if (learner->work.split.done) {
+            mark->word[8] = learner->persistence.wanted;
+            mark->word[9] = learner->persistence.at;
+        }
+    } else if (rlvc_phase_splits(learner->phase) && learner->searching)
         rlvc_successor_search_mark(&learner->work.successors, mark->word);
 }
 
@@ -55,6 +59,7 @@ static int phase_is_possible(const rlvc_agent *agent) {
         return !incremental;
     case RLVC_PHASE_NOVELTY:
         return !incremental && agent->config.explore == RLVC_EXPLORE_DIRECTED;
+    case RLVC_PHASE_INFLUENCE:
     case RLVC_PHASE_SUCCESSORS:
         return agent->config.successors && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
     default:
@@ -122,11 +127,13 @@ static int is_done(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
     if (learner->phase == RLVC_PHASE_GROUP)
         return learner->work.grouping.done;
-    if (learner->phase == RLVC_PHASE_SUCCESSORS)
+    if (learner->phase == RLVC_PHASE_INFLUENCE || learner->phase == RLVC_PHASE_SUCCESSORS)
         return learner->work.successors.done;
     if (learner->phase == RLVC_PHASE_NOVELTY)
         return learner->work.novelty.done;
-    return learner->phase == RLVC_PHASE_MODEL ? learner->work.model.done : learner->work.split.done;
+    if (learner->phase == RLVC_PHASE_MODEL)
+        return learner->work.model.done;
+    return learner->work.split.done && learner->persistence.at == learner->end;
 }
 
 /* What was counted while the phase was under way stays as it was loaded. */
@@ -137,15 +144,31 @@ static void novelty_single(rlvc_agent *agent) {
     (void)rlvc_novelty_step(&agent->learner.work.novelty, &input, &agent->values, &counted, 1);
 }
 
+/* Begins, or looks at a position of the ring. */
+static rlvc_status redo_persistence(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    if (!learner->persistence.wanted) {
+        learner->persistence.wanted = 1;
+        return RLVC_OK;
+    }
+    rlvc_split split;
+    uint32_t used;
+    const void *feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
+    return feature ? rlvc_learner_weigh_persistence(agent, feature, 1, &used) : RLVC_E_DAMAGED;
+}
+
 static rlvc_status single(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
     rlvc_target_input successor = rlvc_learner_target_input(agent, RLVC_TARGET_SUCCESSOR);
     rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
+    if (learner->phase == RLVC_PHASE_SEARCH && learner->work.split.done)
+        return redo_persistence(agent);
     if (learner->phase == RLVC_PHASE_SEARCH)
         return rlvc_split_search_single(&learner->work.split, &input);
-    if (learner->phase == RLVC_PHASE_SUCCESSORS)
-        return rlvc_successor_search_single(&learner->work.successors, &input);
+    if (learner->phase == RLVC_PHASE_INFLUENCE || learner->phase == RLVC_PHASE_SUCCESSORS)
+        return rlvc_successor_search_single(&learner->work.successors, &input,
+                                            agent->values.begin.sample);
     if (learner->phase == RLVC_PHASE_NOVELTY)
         novelty_single(agent);
     else if (learner->phase == RLVC_PHASE_GROUP)
@@ -187,19 +210,29 @@ static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_cursor_mark
     return status;
 }
 
+/* The features that are influenced, anew. `step` and the classes, which tell the level and the
+ * strata, are as they were. */
+static rlvc_status redo_influence(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    learner->phase = RLVC_PHASE_INFLUENCE;
+    rlvc_learner_begin_search(agent);
+    rlvc_status status = advance_to(agent, NULL);
+    learner->phase = RLVC_PHASE_SUCCESSORS;
+    learner->influenced = learner->work.successors.kept;
+    return status;
+}
+
 static rlvc_status redo_search(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
-    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
+    uint8_t searching = learner->searching;
+    rlvc_status status = RLVC_OK;
     (void)redo(agent, RLVC_PHASE_GROUP, NULL);
-    if (!learner->searching)
-        return RLVC_OK;
-    const uint32_t *first =
-        agent->values.begin.sample + rlvc_values_pair(&agent->values, learner->at, 0);
     if (learner->phase == RLVC_PHASE_SUCCESSORS)
-        rlvc_successor_search_begin(&learner->work.successors, &input, first);
-    else
-        rlvc_split_search_begin(&learner->work.split, &input, first);
+        status = redo_influence(agent);
+    learner->searching = searching;
+    if (status != RLVC_OK || !searching)
+        return status;
+    rlvc_learner_begin_search(agent);
     return advance_to(agent, mark);
 }
 

@@ -44,7 +44,7 @@ static int pass_config(rlvc_stream *s, rlvc_config *config) {
     rlvc_stream_u8(s, &config->continuing);
     rlvc_stream_u8(s, &config->successors);
     rlvc_stream_u8(s, &config->explore);
-    known &= pass_reserved(s, 1); /* gate */
+    rlvc_stream_u8(s, &config->dependence);
     rlvc_stream_float(s, &config->discount);
     rlvc_stream_float(s, &config->epsilon);
     rlvc_stream_float(s, &config->alpha);

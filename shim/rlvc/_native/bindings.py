@@ -215,9 +215,10 @@ class Config(c.Structure):
         ("features_at_once", c.c_uint32), ("min_samples", c.c_uint32),
         ("max_sweeps", c.c_uint32), ("seed", c.c_uint32), ("criterion", c.c_uint8),
         ("score", c.c_uint8), ("solver", c.c_uint8), ("continuing", c.c_uint8),
-        ("successors", c.c_uint8), ("explore", c.c_uint8), ("reserved", c.c_uint8 * 2),
-        ("discount", c.c_float), ("epsilon", c.c_float), ("alpha", c.c_float),
-        ("alpha_known", c.c_float), ("tolerance", c.c_float), ("learning_rate", c.c_float),
+        ("successors", c.c_uint8), ("explore", c.c_uint8), ("dependence", c.c_uint8),
+        ("reserved", c.c_uint8), ("discount", c.c_float), ("epsilon", c.c_float),
+        ("alpha", c.c_float), ("alpha_known", c.c_float), ("tolerance", c.c_float),
+        ("learning_rate", c.c_float),
     ]
 
 

@@ -60,9 +60,15 @@ class Config:
     continuing : bool
         Whether the returns of definition 1 continue after a terminated interaction.
     successors : bool or None
-        Whether to also split a class if the next percepts after the same action differ, even while
-        all rewards are equal (residual criterion; the candidates must fit into
-        ``features_at_once``). None: yes for up to 64 bits, else no.
+        Whether to also split a class by a feature that the agent influences and that lasts, even
+        while all rewards are equal (residual criterion; a domain whose number of candidates is
+        known). None: yes for bits, else no.
+    dependence : bool or None
+        Whether a feature that is new to the tree must be significant although it may stay as it is
+        for long, from one visit to a class to the next: what stays agrees with other things that
+        do by chance. It then counts as fewer samples, so that percepts in a fixed order need more
+        of them. No effect without ``successors``, which find what the agent influences. None: yes
+        for bits, else no.
     explore : {"directed", "uniform"}
         How to explore. directed: one action in two leads towards the nearest class-action pair with
         few tries, the other prefers actions with few tries in the class. uniform: every action is
@@ -74,9 +80,10 @@ class Config:
     alpha : float
         Significance level, (0, 1]: the probability that an irrelevant feature ever enters the tree,
         over all learning steps together.
-    alpha_known : float
-        Significance level of a split by a feature that is in the tree already, (0, 1]. No effect if
-        it is below the level that ``alpha`` gives.
+    alpha_known : float or None
+        Significance level of a split by a feature that is in the tree already, or that the agent
+        influences, (0, 1]. No effect if it is below the level that ``alpha`` gives. None: 0.1 for
+        bits, else 1.
     tolerance : float
         Accuracy of the values of a batch solver, in units of reward, (0, 1e12].
     learning_rate : float
@@ -100,11 +107,12 @@ class Config:
     solver: Solver = "value_iteration"
     continuing: bool = False
     successors: bool | None = None
+    dependence: bool | None = None
     explore: Explore = "directed"
     discount: float = 0.9
     epsilon: float = 0.9
     alpha: float = 0.01
-    alpha_known: float = 1.0
+    alpha_known: float | None = None
     tolerance: float = 0.01
     learning_rate: float = 0.1
 

@@ -340,7 +340,8 @@ def learn_from(
     found = opened(source)
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     actions = whole("actions", actions if actions is not None else found.actions, 1, 255)
-    settings = default_config(actions, 1, seed, {"capacity": _CAPACITY} | config)
+    changes = {"capacity": _CAPACITY, "dependence": False} | config
+    settings = default_config(actions, 1, seed, changes)
     made = _domain_of(domain, found)
     agent = Agent(made, settings)
     rounds.refuse(agent)

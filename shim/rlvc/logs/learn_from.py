@@ -212,7 +212,7 @@ def learn_from(
         encoder = None
     else:
         made, encoder, before, after = encoded(log, encoder, space, thresholds, names)
-    settings = default_config(known.count, len(log), seed, config)
+    settings = default_config(known.count, len(log), seed, {"dependence": False} | config)
     by_counts = "capacity" not in config and len(log) > settings.capacity // 2
     if by_counts and rounds.why_not(made, settings):
         settings = settings.replace(capacity=2 * len(log))  # all of it, whatever that takes

@@ -6,8 +6,6 @@
 #include "maze_defaults.h"
 #include "rlvc/rlvc.h"
 
-#include <algorithm>
-
 namespace {
 
 constexpr uint32_t capacity_max = 2147483647;
@@ -23,26 +21,23 @@ constexpr LearningTexts texts{
     "learning steps; residual: spread evenly over the interactions",
     "probability of exploring",
     "bound on the probability of any test if there is nothing to learn",
-    "most classes of the tree (default: 4 for 3 cells, at least 64)",
+    "most classes of the tree (default: 1 for 8 interactions, at least 64)",
     "make N runs with seeds from --seed on, and print a table",
     "write the tree for Graphviz; not with --runs",
 };
 
 constexpr char defaults_table[] =
-    R"(Defaults                          interactions   steps  epsilon  alpha  alpha-known  successors  capacity
-  returns                         10000 a step   20     0.8      0.05   0.0001       no          of a step
-  residual, small maze            2500           25     0.9      0.01   1            yes         1200
-    with q-learning or sarsa      20000          200    0.3      0.01   1            yes         1200
-  residual, other mazes           320 a cell     60     1        0.01   0.00001      no          all
-    with q-learning or sarsa      320 a cell     60     0.3      0.01   0.00001      no          all
-A small maze has at most 46 free cells, as Sutton's has, and no slip.)";
+    R"(Defaults                    interactions   steps              epsilon  alpha  alpha-known  successors
+  returns                   10000 a step   20                 0.8      0.05   0.0001       no
+  residual                  5000           1 for 100, <= 100  0.9      0.01   0.1          yes
+    with q-learning, sarsa  20000          1 for 100, <= 100  0.3      0.01   0.1          yes
+They are the same for every maze.)";
 
-gridworld_defaults defaults_for(const Options &options, const gridworld_maze &maze) {
+gridworld_defaults defaults_for(const Options &options) {
     const bool incremental =
         options.solver == RLVC_SOLVER_Q_LEARNING || options.solver == RLVC_SOLVER_SARSA;
-    const gridworld_learner learner{options.returns(), incremental, options.distractors,
-                                    options.slip};
-    return gridworld_defaults_for(&maze, &learner);
+    const gridworld_learner learner{options.returns(), incremental, options.interactions};
+    return gridworld_defaults_for(&learner);
 }
 
 void add_learning(CLI::App &app, Options &options) {
@@ -62,7 +57,7 @@ void add_learning(CLI::App &app, Options &options) {
         ->type_name("ANSWER")
         ->check(one_of({"yes", "no"}));
     add_whole(app, "--capacity", options.capacity, 1, capacity_max,
-              "most interactions in memory; the oldest are overwritten");
+              "most interactions in memory (default: all); the oldest are overwritten");
 }
 
 void add_world(CLI::App &app, Options &options) {
@@ -126,15 +121,13 @@ bool read_options(int argc, char **argv, Options &options) {
 
 void settle(Options &options, const gridworld_maze &maze) {
     check_percept(options, maze);
-    const gridworld_defaults defaults = defaults_for(options, maze);
+    const gridworld_defaults defaults = defaults_for(options);
     settle_schedule(options, {defaults.interactions, defaults.steps, defaults.epsilon});
     set_if_open(options.alpha, options.alpha == 0.0f, defaults.alpha);
     set_if_open(options.alpha_known, options.alpha_known == 0.0f, defaults.alpha_known);
     set_if_open(options.successors, options.successors < 0, defaults.successors);
     set_if_open(options.classes, options.classes == 0, defaults.classes);
-    set_if_open(options.capacity, options.capacity == 0,
-                defaults.capacity == 0 ? options.interactions
-                                       : std::min(options.interactions, defaults.capacity));
+    set_if_open(options.capacity, options.capacity == 0, options.interactions);
 }
 
 const char *solver_name(const Options &options) {

@@ -24,7 +24,7 @@ struct Options : LearningOptions {
 // which is printed then. Throws Failure.
 bool read_options(int argc, char **argv, Options &options);
 
-// Fills in what was left open, by the criterion and the size of the maze, and checks what depends
+// Fills in what was left open, by the criterion and the solver, and checks what depends
 // on the maze. Throws Failure.
 void settle(Options &options, const gridworld_maze &maze);
 
