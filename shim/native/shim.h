@@ -99,22 +99,19 @@ typedef struct rlvc_shim_columns {
     size_t count;
 } rlvc_shim_columns;
 
-#define RLVC_SHIM_FOLLOW_MAX 64u /* features at most, if pairs of them are counted */
-
 /* The counts of a part of a log (rlvc/counts.h), in arrays of the caller's. At first all are 0 but
  * the indices, whose elements are all ones. */
 typedef struct rlvc_shim_table {
     rlvc_count_row *row;    /* [rows_max] */
     uint64_t *with;         /* [rows_max][features] */
-    uint64_t *lanes;        /* [rows_max][lanes], lanes = ceil(features / 8): not yet in `with` */
+    uint64_t *follow;       /* [rows_max][2][features], or null */
+    uint64_t *lanes;        /* [rows_max][kinds][ceil(features / 8)] what is not yet in `with` and,
+                               if there is that, in `follow`: kinds is 1, or 3 */
     uint8_t *pending;       /* [rows_max] how many interactions are in `lanes` */
-    uint32_t *row_pair;     /* [rows_max] */
     uint32_t *row_index;    /* [2 rows_max] */
+    rlvc_exact_sum *reward; /* [pairs_max], or null: then there are no pairs */
+    uint32_t *row_pair;     /* [rows_max] */
     rlvc_count_pair *pair;  /* [pairs_max] */
-    uint64_t *follow;       /* [pairs_max][features + 1][features + 1], or null */
-    rlvc_exact_sum *reward; /* [pairs_max], or null */
-    uint64_t *now, *next;   /* [pairs_max][64][ceil(features / 64)] not yet in `follow` */
-    uint32_t *waiting;      /* [pairs_max] how many interactions are in these */
     uint32_t *pair_index;   /* [2 pairs_max] */
     const uint64_t *gather; /* [gather_bytes][256] the bits of a cell that a byte's values have */
     const uint64_t *spread; /* [256] bit i of a byte as byte i */
@@ -128,16 +125,15 @@ typedef struct rlvc_shim_table {
 /* Counts interactions from number *done on, which becomes the first that is not counted, or
  * `count`.
  * @return RLVC_OK; RLVC_E_MEMORY: there is no room for another row or pair; RLVC_E_RANGE: its
- *         action or end; RLVC_E_REWARD. O(features / 8), and features^2 / 64 for pairs of them. */
+ *         action or end; RLVC_E_REWARD. O(features / 8) for each interaction. */
 RLVC_API rlvc_status rlvc_shim_count(rlvc_shim_table *table, const rlvc_shim_columns *columns,
                                      size_t *done);
 
-/* Completes the counts: nothing is pending or waiting any more. O(rows, pairs). */
+/* Completes the counts: nothing is pending any more. O(rows features). */
 RLVC_API void rlvc_shim_count_end(rlvc_shim_table *table);
 
 /* Adds counts of the same features and cells.
- * @return RLVC_OK; RLVC_E_MEMORY: no room; some are added then. O(features) a row, and its square
- *         a pair. */
+ * @return RLVC_OK; RLVC_E_MEMORY: no room; some are added then. O(features) a row. */
 RLVC_API rlvc_status rlvc_shim_count_add(rlvc_shim_table *table, const rlvc_counts *part);
 
 /* The last solution as tables.

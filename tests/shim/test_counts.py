@@ -9,7 +9,7 @@ import worlds
 
 import rlvc
 from rlvc.counts import rounds
-from rlvc.counts.part import Part, Question
+from rlvc.counts.part import PAIR, ROW, Part, Question
 from rlvc.counts.table import Columns, Table, added
 from rlvc.errors import ConfigError, CountError, LogError, LogWarning, RangeError
 
@@ -34,28 +34,24 @@ def reference(some, ask):
     over = some.ends == 1
     now, after = (np.unpackbits(side, axis=1, count=ask.features, bitorder="little").astype(np.int64)
                   for side in (some.percepts, some.next_percepts))  # fmt: skip
+    after[over] = 0
     next_cell = np.where(over, 0, cells(some.next_percepts, ask.tested)).astype(np.uint64)
     now_cell = cells(some.percepts, ask.tested)
-    rows, pairs = {}, {}
+    rows = {}
     for i in range(len(some)):
         reward = float(some.keys[i] + np.float32(0))
         key = (int(now_cell[i]), int(some.actions[i]), bool(over[i]), reward, int(next_cell[i]))
         rows.setdefault(key, []).append(i)
-        pairs.setdefault(key[:2], []).append(i)
-    counted = {key: (len(of), now[of].sum(0).tolist()) for key, of in rows.items()}
-    one = np.ones((len(some), 1), np.int64)
-    now, after = np.hstack([one, now]), np.hstack([one, after])
-    after[over] = 0  # what terminated has no next percept
-    follow = {key: (now[of].T @ after[of]).tolist() for key, of in pairs.items()}
-    return counted, follow
+    return {key: (len(of), now[of].sum(0).tolist(), after[of].sum(0).tolist(), (now & after)[of].sum(0).tolist())
+            for key, of in rows.items()}  # fmt: skip
 
 
-def as_dicts(part):
-    rows = {(int(r["now"]), int(r["action"]), bool(r["terminated"]), float(r["reward"]), int(r["next"])):
-            (int(r["count"]), part.present[i].tolist()) for i, r in enumerate(part.row)}  # fmt: skip
-    pairs = {(int(p["now"]), int(p["action"])): i for i, p in enumerate(part.pair)}
-    follow = {key: part.follow[i].tolist() for key, i in pairs.items()} if part.follow is not None else None
-    return rows, follow
+def as_dict(part):
+    keys = [(int(r["now"]), int(r["action"]), bool(r["terminated"]), float(r["reward"]), int(r["next"]))
+            for r in part.row]  # fmt: skip
+    follow = part.follow if part.follow is not None else [[None, None]] * len(keys)
+    return {key: (int(r["count"]), here.tolist(), *(None if x is None else x.tolist() for x in then))
+            for key, r, here, then in zip(keys, part.row, part.present, follow, strict=True)}  # fmt: skip
 
 
 def counted(some, ask):
@@ -71,13 +67,12 @@ def counted(some, ask):
 )  # fmt: skip
 def test_same_as_numpy(bits, tested):
     rng = np.random.default_rng(bits + len(tested))
-    ask = Question(bits, 3, tuple(sorted(tested)), follow=bits <= 64)
     some = random_columns(rng, bits, 3000)
-    rows, follow = reference(some, ask)
-    found_rows, found_follow = as_dicts(counted(some, ask))
-    assert found_rows == rows
-    if ask.follow:
-        assert found_follow == follow
+    ask = Question(bits, 3, tuple(sorted(tested)))
+    expected = reference(some, ask)
+    assert as_dict(counted(some, ask)) == expected
+    less = as_dict(counted(some, Question(bits, 3, tuple(sorted(tested)), follow=False)))
+    assert less == {key: (*value[:2], None, None) for key, value in expected.items()}
 
 
 def test_parts_in_any_order_add_up():
@@ -119,8 +114,7 @@ def test_table_grows_up_to_its_memory():
     rng = np.random.default_rng(2)
     some = random_columns(rng, 16, 40_000)
     ask = Question(16, 3, tuple(range(16)))
-    rows, _ = reference(some, ask)
-    assert as_dicts(counted(some, ask))[0] == rows
+    assert as_dict(counted(some, ask)) == reference(some, ask)
     small = Table(ask, memory=2 << 20)
     with pytest.raises(CountError, match="more than 2097152 bytes"):
         small.count(some)
@@ -164,7 +158,7 @@ def expect_same(one, other):
 )
 def test_same_tree_as_in_memory(slip, rewards):
     some = worlds.maze(20_000, slip=slip, rewards=rewards)
-    expected = rlvc.learn_from(worlds.log_of(some), actions=4).agent
+    expected = rlvc.learn_from(worlds.log_of(some), actions=4, dependence=False).agent
     agent, progress = learn(some)
     expect_same(agent, expected)
     assert progress.passes <= 1 + len(rounds.tested_by(agent))
@@ -179,10 +173,10 @@ def test_what_counts_cannot_do_is_refused():
         ({"solver": "sarsa"}, "sarsa depends on the order"),
         ({"solver": "q_learning"}, "q_learning depends on the order"),
         ({"score": "ranks"}, "ranks are not made from counts"),
-        ({}, "how long a feature stays"),
+        ({"dependence": None}, "how long a feature stays"),
     ):
         with pytest.raises(ConfigError, match=text):
-            rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **config)))
+            rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **{"dependence": False} | config)))
     with pytest.raises(ConfigError, match="counts are of bits"):
         rounds.refuse(rlvc.Agent(rlvc.Thresholds(2), 2))
 
@@ -195,14 +189,14 @@ def scaled(part, times):
     row = part.row.copy()
     row["count"] *= times
     follow = None if part.follow is None else part.follow * times
-    return Part(row, part.present * times, part.pair, follow, None)
+    return Part(row, part.present * times, follow, part.pair, None)
 
 
 @pytest.mark.parametrize("total", [2**31, 2**32, 10**11, 2**47])
 def test_more_than_any_ring_holds(total):
     """Scaled counts scale luck as well; but where rewards follow from the cell, luck ends with it."""
     some = worlds.maze(50_000)
-    fields = {"classes": 60, "discount": 0.99, "tolerance": 0.001, "successors": False}
+    fields = {"classes": 60, "discount": 0.99, "tolerance": 0.001, "successors": False, "dependence": False}
     agents = []
     for times in (1, total // len(some)):
         agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
@@ -223,19 +217,45 @@ def test_too_many_is_an_error():
         agent.learn_counts(part.native(np.arange(18, dtype=np.uint16), np.zeros(0, np.uint32)))
 
 
+def without_effect(rng, count, features, actions):
+    """Counts of so many interactions in which all bits, actions and rewards are drawn by themselves."""
+    row = np.zeros(2 * actions, ROW)
+    row["count"] = rng.multinomial(count, np.full(2 * actions, 0.5 / actions))
+    row["action"], row["reward"] = np.repeat(np.arange(actions), 2), np.tile([0, 1], actions)
+    each = np.repeat(row["count"].astype(np.int64)[:, None], features, axis=1)
+    present = rng.binomial(each, 0.5)
+    both = rng.binomial(present, 0.5)
+    after = both + rng.binomial(each - present, 0.5)
+    follow = np.stack([after, both], axis=1)
+    return Part(row, present.astype(np.uint64), follow.astype(np.uint64), np.zeros(0, PAIR), None)
+
+
+@pytest.mark.parametrize("count", [10**8, 10**11])
+def test_without_an_effect_there_is_no_split(count):
+    """Counts can be drawn as they are: nobody has to count 100 million interactions for that."""
+    false = 0
+    for seed in range(20):
+        part = without_effect(np.random.default_rng(seed), count, worlds.BITS, 4)
+        agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, dependence=False))
+        native = part.native(np.arange(worlds.BITS, dtype=np.uint16), np.zeros(0, np.uint32))
+        false += agent.learn_counts(native).splits > 0
+    assert false <= 1
+
+
 # ------------------------------------------------------------------ logs above the replay buffer
 
 
 def test_a_long_log_is_counted_and_nothing_is_left_out(monkeypatch):
     some = worlds.maze(20_000, slip=0.1)
     log = worlds.log_of(some)
-    expected = rlvc.learn_from(log, actions=4)
+    expected = rlvc.learn_from(log, actions=4, dependence=False)
     monkeypatch.setattr("rlvc.learning.learn._CAPACITY_MAX", 30_000)
-    run = rlvc.learn_from(log, actions=4)
+    run = rlvc.learn_from(log, actions=4, dependence=False)
     expect_same(run.agent, expected.agent)
     assert [(r.step, r.interactions, r.classes, r.splits) for r in run.history] == [(1, 20_000, 46, 45)]
     assert run.agent.statistics.interactions == 20_000
     assert run.agent.statistics.stored == 0
+    assert rlvc.learn_from(log, actions=4, dependence=True).agent.config.capacity == 40_000
     whole = rlvc.learn_from(log | {"exploited": np.zeros(20_000, bool)}, actions=4, criterion="returns")
     assert whole.agent.config.capacity == 40_000
 
@@ -272,7 +292,7 @@ def test_any_log_makes_the_same_tree(seed):
            "terminated": terminated, "truncated": ~terminated & (rng.random(count) < 0.02)}  # fmt: skip
     config = {"discount": float(rng.choice([0.0, 0.5, 0.99])), "successors": bool(rng.integers(0, 2)),
               "explore": str(rng.choice(["uniform", "directed"])), "classes": int(rng.choice([3, 64])),
-              "solver": str(rng.choice(["value_iteration", "policy_iteration"]))}  # fmt: skip
+              "dependence": False, "solver": str(rng.choice(["value_iteration", "policy_iteration"]))}  # fmt: skip
     expected = rlvc.learn_from(log, actions=actions, **config).agent
     monkey = pytest.MonkeyPatch()
     with monkey.context() as patch:

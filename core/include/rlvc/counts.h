@@ -6,8 +6,8 @@
  * and a cell one combination of their presence. Then it is enough to count, of all interactions,
  *
  *     rows    by cell of s, action, reward, cell of s' and whether the episode terminated there:
- *             how many, and of how many s exhibits each feature;
- *     pairs   by cell of s and action: of how many s exhibits f and s' exhibits g, for any f and g.
+ *             how many, of how many s exhibits each feature, of how many s' does, and of how many
+ *             both do.
  *
  * Tables of parts of the data add up to the table of the whole, in any order. The tree, Q and V
  * are those that rlvc_learn makes of the same interactions in one ring, bit for bit, but for a mean
@@ -66,13 +66,12 @@ typedef struct rlvc_count_pair {
 
 /* The tables. Rows and pairs may come in any order, and need not be distinct. */
 typedef struct rlvc_counts {
-    const rlvc_count_row *row;   /* [rows] */
-    const uint64_t *with;        /* [rows][features]: of how many of the row's s exhibits each */
-    const rlvc_count_pair *pair; /* [pairs]; needed if follow or reward is not null */
-    /* [pairs][features + 1][features + 1]: element (i, j) counts the interactions, not terminated,
-     * whose s exhibits feature i - 1 and whose s' exhibits feature j - 1; i = 0 and j = 0 stand for
-     * any. Needed if config.successors. */
+    const rlvc_count_row *row; /* [rows] */
+    const uint64_t *with;      /* [rows][features]: of how many of the row's s exhibits each */
+    /* [rows][2][features]: of how many of the row's s' exhibits each, and of how many s and s' do;
+     * 0 where terminated. Needed if config.successors. */
     const uint64_t *follow;
+    const rlvc_count_pair *pair; /* [pairs]; needed if reward is not null */
     /* [pairs]: sums of rewards, for rows whose rewards are rounded. Optional: then they are sums of
      * the rows' rewards. */
     const rlvc_exact_sum *reward;
@@ -96,7 +95,7 @@ RLVC_API rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts
  * above 2^32 - 1 appear as that in what the agent reports. The interactions in the agent's ring
  * take no part; they are classified anew by the next rlvc_learn.
  *
- * Not sliced: O(rows (log rows + features) + classes (pairs + features^2 actions)), and the
+ * Not sliced: O(rows (log rows + features) + classes actions features), and the
  * solution.
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_counts_size or more; only used
  *               during the call

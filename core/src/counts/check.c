@@ -36,46 +36,34 @@ static int row_fits(const rlvc_agent *agent, const rlvc_counts *counts, uint32_t
 
 /* Of `size` interactions, can `both` be where `now` and `next` meet? */
 static int meet(uint64_t size, uint64_t now, uint64_t next, uint64_t both) {
-    return both <= now && both <= next && now <= size && next - both <= size - now;
+    return both <= now && both <= next && next <= size && now - both <= size - next;
 }
 
-static int pair_fits(const rlvc_agent *agent, const rlvc_counts *counts, uint32_t i) {
-    const uint32_t width = counts->features + 1u;
-    if (counts->pair[i].action >= agent->config.actions)
-        return 0;
-    if (!counts->follow)
-        return 1;
-    const uint64_t *of = counts->follow + (size_t)i * width * width;
-    if (of[0] > RLVC_COUNT_MAX)
-        return 0;
-    for (uint32_t f = 1; f < width; f++) {
-        for (uint32_t g = 1; g < width; g++) {
-            if (!meet(of[0], of[(size_t)f * width], of[g], of[(size_t)f * width + g]))
-                return 0;
-        }
+static int follow_fits(const rlvc_counts *counts, uint32_t i) {
+    const rlvc_count_row *row = &counts->row[i];
+    const uint64_t *with = counts->with + (size_t)i * counts->features;
+    const uint64_t *next = counts->follow + (size_t)i * 2u * counts->features;
+    const uint64_t *both = next + counts->features;
+    for (uint32_t f = 0; f < counts->features; f++) {
+        if (!meet(row->count, with[f], next[f], both[f]) || (row->terminated && next[f] > 0))
+            return 0;
     }
     return 1;
 }
 
 int rlvc_counts_check(const rlvc_agent *agent, const rlvc_counts *counts, uint64_t *total) {
-    uint64_t followed = 0;
     *total = 0;
     if (!numbers_fit(counts) || (agent->config.successors && !counts->follow))
         return 0;
     for (uint32_t i = 0; i < counts->rows; i++) {
-        if (!row_fits(agent, counts, i))
+        if (!row_fits(agent, counts, i) || (counts->follow && !follow_fits(counts, i)))
             return 0;
         *total += counts->row[i].count;
         if (*total > RLVC_COUNT_MAX)
             return 0;
     }
     for (uint32_t i = 0; i < counts->pairs; i++) {
-        if (!pair_fits(agent, counts, i))
-            return 0;
-        if (counts->follow)
-            followed +=
-                counts->follow[(size_t)i * (counts->features + 1u) * (counts->features + 1u)];
-        if (followed > *total)
+        if (counts->pair[i].action >= agent->config.actions)
             return 0;
     }
     return 1;

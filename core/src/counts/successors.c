@@ -8,29 +8,33 @@
 #include "table.h"
 #include <string.h>
 
-/* Adds up the tables of the class, an action after another. */
+/* What follows the actions of a class: adds up the rows of what did not terminate. */
 static void add_up(rlvc_count_table *table, const rlvc_agent *agent, uint32_t class_id) {
     const rlvc_counts *counts = table->counts;
-    const size_t cells = (size_t)(counts->features + 1u) * (counts->features + 1u);
-    memset(table->follow, 0, agent->config.actions * cells * sizeof *table->follow);
-    for (uint32_t i = 0; i < counts->pairs; i++) {
-        if (table->pair[i] != class_id)
+    const uint32_t features = counts->features, actions = agent->config.actions;
+    const uint32_t *first =
+        agent->values.begin.sample + rlvc_values_pair(&agent->values, class_id, 0);
+    memset(table->follow, 0, (size_t)actions * features * sizeof *table->follow);
+    for (uint32_t at = first[0]; at < first[actions]; at++) {
+        const size_t i = table->sample[at].slot;
+        const rlvc_count_row *row = &counts->row[i];
+        const uint64_t *with = counts->with + i * features;
+        const uint64_t *next = counts->follow + i * 2u * features, *both = next + features;
+        rlvc_following *to = table->follow + (size_t)row->action * features;
+        if (row->terminated)
             continue;
-        uint64_t *to = table->follow + counts->pair[i].action * cells;
-        const uint64_t *from = counts->follow + i * cells;
-        for (size_t j = 0; j < cells; j++)
-            to[j] += from[j];
+        for (uint32_t f = 0; f < features; f++) {
+            to[f].n[1][1] += (rlvc_count)both[f];
+            to[f].n[1][0] += (rlvc_count)(with[f] - both[f]);
+            to[f].n[0][1] += (rlvc_count)(next[f] - both[f]);
+            to[f].n[0][0] += (rlvc_count)(row->count - with[f] - (next[f] - both[f]));
+        }
     }
 }
 
-/* What followed an action of the class that was added up. */
-static rlvc_following following(const rlvc_count_table *table, uint32_t action, uint32_t feature) {
-    const size_t width = table->counts->features + 1u, f = feature + 1u;
-    const uint64_t *of = table->follow + action * width * width;
-    const rlvc_count all = (rlvc_count)of[0], now = (rlvc_count)of[f * width];
-    const rlvc_count next = (rlvc_count)of[f], both = (rlvc_count)of[f * width + f];
-    const rlvc_following made = {{{all - now - next + both, next - both}, {now - both, both}}};
-    return made;
+static const rlvc_following *following(const rlvc_count_table *table, uint32_t action,
+                                       uint32_t feature) {
+    return &table->follow[(size_t)action * table->counts->features + feature];
 }
 
 uint32_t rlvc_count_influence(rlvc_count_table *table, const rlvc_agent *agent) {
@@ -43,8 +47,7 @@ uint32_t rlvc_count_influence(rlvc_count_table *table, const rlvc_agent *agent) 
         add_up(table, agent, c);
         for (uint32_t a = 0; a < actions; a++) {
             for (uint32_t f = 0; f < features; f++) {
-                const rlvc_following action = following(table, a, f);
-                rlvc_influence_add(&table->influence[f], &action, a + 1u == actions);
+                rlvc_influence_add(&table->influence[f], following(table, a, f), a + 1u == actions);
             }
         }
     }
@@ -72,10 +75,8 @@ const void *rlvc_count_lasting(rlvc_count_table *table, const rlvc_agent *agent,
     add_up(table, agent, class_id);
     for (uint32_t j = 0; j < influenced; j++) {
         rlvc_successor_evidence evidence = nothing;
-        for (uint32_t a = 0; a < actions; a++) {
-            const rlvc_following action = following(table, a, table->influenced[j]);
-            rlvc_lasting_add(&evidence, &action);
-        }
+        for (uint32_t a = 0; a < actions; a++)
+            rlvc_lasting_add(&evidence, following(table, a, table->influenced[j]));
         float log_p = rlvc_successor_evidence_log_p(&evidence);
         if (log_p < least) {
             least = log_p;

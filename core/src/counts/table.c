@@ -10,7 +10,7 @@
 void rlvc_count_table_carve(rlvc_count_table *table, rlvc_arena *arena, const rlvc_agent *agent,
                             const rlvc_counts *counts) {
     uint64_t parts = counts->rows;
-    uint64_t width = counts->features + 1u, pairs = agent->config.actions;
+    uint64_t pairs = agent->config.actions;
     for (uint32_t i = 0; i < counts->rows; i++)
         parts += counts->row[i].count / RLVC_PART_MAX;
     table->counts = counts;
@@ -18,7 +18,7 @@ void rlvc_count_table_carve(rlvc_count_table *table, rlvc_arena *arena, const rl
     table->transition = rlvc_arena_carve_bytes(arena, parts * sizeof *table->transition);
     table->sum = rlvc_arena_carve_bytes(arena, pairs * agent->tree.classes * sizeof *table->sum);
     table->follow = rlvc_arena_carve_bytes(
-        arena, agent->config.successors ? pairs * width * width * sizeof *table->follow : 0);
+        arena, agent->config.successors ? pairs * counts->features * sizeof *table->follow : 0);
     table->influence = rlvc_arena_carve(arena, counts->features, sizeof *table->influence);
     table->influenced = rlvc_arena_carve(arena, counts->features, sizeof *table->influenced);
     table->scratch = rlvc_arena_carve(arena, 1, RLVC_SORT_SCRATCH_BYTES);

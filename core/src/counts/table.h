@@ -16,7 +16,7 @@ typedef struct rlvc_count_table {
     rlvc_sample *sample;                /* [rows] by class and action: begin.sample of the values */
     rlvc_transition *transition;        /* [rows + parts] likewise: begin.transition */
     rlvc_exact_sum *sum;                /* [classes][actions] of rewards */
-    uint64_t *follow;                   /* [actions][features + 1][features + 1] of a class */
+    rlvc_following *follow;             /* [actions][features] of a class */
     rlvc_successor_evidence *influence; /* [features] */
     uint32_t *influenced;               /* [features] */
     uint32_t *scratch;                  /* RLVC_SORT_SCRATCH_BYTES */
@@ -32,7 +32,7 @@ typedef struct rlvc_count_table {
 void rlvc_count_table_carve(rlvc_count_table *table, rlvc_arena *arena, const rlvc_agent *agent,
                             const rlvc_counts *counts);
 
-/* Do the numbers of *counts fit together, and to the agent? O(rows features + pairs features^2).
+/* Do the numbers of *counts fit together, and to the agent? O(rows features + pairs).
  * @param total becomes the number of all interactions */
 int rlvc_counts_check(const rlvc_agent *agent, const rlvc_counts *counts, uint64_t *total);
 

@@ -108,7 +108,6 @@ THRESHOLDS_FEATURE_BYTES = 12
 THRESHOLDS_NONE = 3e+38
 SHIM_RECORDS_PERCEPT = 1048576
 SHIM_RECORDS_ROOM = 1048589
-SHIM_FOLLOW_MAX = 64
 VISION_OK = 0
 VISION_E_NULL = -101
 VISION_E_CONFIG = -102
@@ -285,7 +284,7 @@ class Counts(c.Structure):
     """``rlvc_counts``."""
 
     _fields_ = [
-        ("row", c.c_void_p), ("with", c.c_void_p), ("pair", c.c_void_p), ("follow", c.c_void_p),
+        ("row", c.c_void_p), ("with", c.c_void_p), ("follow", c.c_void_p), ("pair", c.c_void_p),
         ("reward", c.c_void_p), ("feature", c.c_void_p), ("tested", c.c_void_p),
         ("rows", c.c_uint32), ("pairs", c.c_uint32), ("features", c.c_uint32),
         ("cell_bits", c.c_uint32),
@@ -563,10 +562,9 @@ class ShimTable(c.Structure):
     """``rlvc_shim_table``."""
 
     _fields_ = [
-        ("row", c.c_void_p), ("with", c.c_void_p), ("lanes", c.c_void_p),
-        ("pending", c.c_void_p), ("row_pair", c.c_void_p), ("row_index", c.c_void_p),
-        ("pair", c.c_void_p), ("follow", c.c_void_p), ("reward", c.c_void_p),
-        ("now", c.c_void_p), ("next", c.c_void_p), ("waiting", c.c_void_p),
+        ("row", c.c_void_p), ("with", c.c_void_p), ("follow", c.c_void_p),
+        ("lanes", c.c_void_p), ("pending", c.c_void_p), ("row_index", c.c_void_p),
+        ("reward", c.c_void_p), ("row_pair", c.c_void_p), ("pair", c.c_void_p),
         ("pair_index", c.c_void_p), ("gather", c.c_void_p), ("spread", c.c_void_p),
         ("gather_byte", c.c_void_p), ("rows", c.c_uint32), ("rows_max", c.c_uint32),
         ("pairs", c.c_uint32), ("pairs_max", c.c_uint32), ("features", c.c_uint32),

@@ -29,7 +29,7 @@ class Question:
     tested : tuple of int
         The features that a cell consists of, at most 64.
     follow : bool
-        Whether pairs of features are counted, for what follows an action.
+        Whether features of s' are counted, for what follows an action.
     sums : bool
         Whether rewards are summed exactly, since the rows' are rounded.
     """
@@ -50,16 +50,18 @@ class Part:
     row : ndarray of ROW, [rows]
     present : ndarray of uint64, [rows, features]
         How many interactions of the row have s with each feature.
+    follow : ndarray of uint64, [rows, 2, features], or None
+        How many have s' with each feature, and how many s and s'.
     pair : ndarray of PAIR, [pairs]
-    follow : ndarray of uint64, [pairs, features + 1, features + 1], or None
+        Cells and actions whose rewards are summed.
     reward : ndarray of uint64, [pairs, 4], or None
         Exact sums.
     """
 
     row: npt.NDArray[Any]
     present: npt.NDArray[np.uint64]
-    pair: npt.NDArray[Any]
     follow: npt.NDArray[np.uint64] | None
+    pair: npt.NDArray[Any]
     reward: npt.NDArray[np.uint64] | None
 
     @property
@@ -73,7 +75,7 @@ class Part:
         return sum(array.nbytes for array in self._arrays())
 
     def _arrays(self) -> list[npt.NDArray[Any]]:
-        arrays = (self.row, self.present, self.pair, self.follow, self.reward)
+        arrays = (self.row, self.present, self.follow, self.pair, self.reward)
         return [array for array in arrays if array is not None]
 
     def digest(self) -> str:
@@ -126,7 +128,7 @@ def in_order(part: Part) -> Part:
     return Part(
         row[rows],
         part.present[rows],
+        None if part.follow is None else part.follow[rows],
         pair[pairs],
-        None if part.follow is None else part.follow[pairs],
         None if part.reward is None else part.reward[pairs],
     )

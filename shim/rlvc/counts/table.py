@@ -83,23 +83,21 @@ class Table:
 
     def _shapes(self, rows: int, pairs: int) -> dict[str, tuple[tuple[int, ...], Any]]:
         ask = self.question
-        lanes, words = -(-ask.features // 8), -(-ask.features // 64)
+        kinds = 3 if ask.follow else 1
         shapes: dict[str, tuple[tuple[int, ...], Any]] = {
             "row": ((rows,), ROW),
             "with": ((rows, ask.features), np.uint64),
-            "lanes": ((rows, lanes), np.uint64),
+            "lanes": ((rows, kinds, -(-ask.features // 8)), np.uint64),
             "pending": ((rows,), np.uint8),
-            "row_pair": ((rows,), np.uint32),
             "row_index": ((2 * rows,), np.uint32),
-            "pair": ((pairs,), PAIR),
-            "pair_index": ((2 * pairs,), np.uint32),
         }
         if ask.follow:
-            shapes["follow"] = ((pairs, ask.features + 1, ask.features + 1), np.uint64)
-            shapes["now"] = shapes["next"] = ((pairs, 64, words), np.uint64)
-            shapes["waiting"] = ((pairs,), np.uint32)
+            shapes["follow"] = ((rows, 2, ask.features), np.uint64)
         if ask.sums:
             shapes["reward"] = ((pairs, _native.EXACT_SUM_WORDS), np.uint64)
+            shapes["row_pair"] = ((rows,), np.uint32)
+            shapes["pair"] = ((pairs,), PAIR)
+            shapes["pair_index"] = ((2 * pairs,), np.uint32)
         return shapes
 
     def _open(self, rows: int, pairs: int) -> None:
@@ -113,8 +111,9 @@ class Table:
                 "with many values? Round them (reward_bits or reward_grid), or allow more (memory)"
             )
         self._arrays = {name: np.zeros(shape, kind) for name, (shape, kind) in shapes.items()}
-        self._arrays["row_index"].fill(0xFFFFFFFF)
-        self._arrays["pair_index"].fill(0xFFFFFFFF)
+        for name in ("row_index", "pair_index"):
+            if name in self._arrays:
+                self._arrays[name].fill(0xFFFFFFFF)
         native = _native.ShimTable()
         for name, array in self._arrays.items():
             setattr(native, name, array.ctypes.data)
@@ -213,14 +212,13 @@ class Table:
         """Return the counts so far, in the order of their keys."""
         native, arrays = self._native, self._arrays
         _native.long_call.rlvc_shim_count_end(ctypes.byref(native))
-        follow, reward = arrays.get("follow"), arrays.get("reward")
         return in_order(
             Part(
                 arrays["row"][: native.rows],
                 arrays["with"][: native.rows],
-                arrays["pair"][: native.pairs],
-                None if follow is None else follow[: native.pairs],
-                None if reward is None else reward[: native.pairs],
+                arrays["follow"][: native.rows] if self.question.follow else None,
+                arrays["pair"][: native.pairs] if self.question.sums else np.zeros(0, PAIR),
+                arrays["reward"][: native.pairs] if self.question.sums else None,
             )
         )
 

@@ -321,7 +321,7 @@ def learn_from(
         File to save tree and counts to after each pass, and to go on from if it is there.
     **config
         Fields of :class:`rlvc.Config`. Defaults that differ: those of :func:`rlvc.learn_from`, but
-        ``capacity`` is 2000, for a controller that loads the result.
+        ``capacity`` is 2000, for a controller that loads the result, and ``dependence`` is off.
 
     Returns
     -------

@@ -194,10 +194,10 @@ def learn_from(
     -----
     Ctrl-C ends learning: the run so far is returned, with ``interrupted`` True.
 
-    Without a ``capacity``, up to half a million interactions are learnt from in the replay buffer.
-    More are counted (``core/include/rlvc/counts.h``), which makes the same tree in less time and
-    memory; the replay buffer is then empty. Where counts do not do, as for real numbers, the replay
-    buffer holds all. :mod:`rlvc.fleet` learns from what does not fit into memory.
+    Without a ``capacity``, the replay buffer holds all interactions. But more than half a million
+    are counted if what is asked for follows from counts (``core/include/rlvc/counts.h``): of bits,
+    with ``dependence=False``. That makes the same tree in less time and memory; the replay buffer is
+    then empty. :mod:`rlvc.fleet` learns from what does not fit into memory.
     """
     if isinstance(columns, str):
         columns = [columns]
