@@ -69,7 +69,8 @@ def parse(arguments=None):
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Learns every task with many seeds and one configuration, and prints a table:\n"
         "return, interactions, leaves, seconds and bytes. Below it stands whether rlvc meets each\n"
-        "bar. Installs what rlvc needs (tools/setup yardstick); fqi, dqn and ppo need tools/setup peers.",
+        "bar. Installs what rlvc needs (tools/setup yardstick); fqi, dqn and ppo need more\n"
+        "(tools/setup peers).",
         epilog=f"Tasks:\n{tasks}\n\n"
         "Learners (rlvc sees bits with distractors among them; a learner that sees the state\n"
         f"does not have to find the useful bits):\n{learners}\n\n"

@@ -117,9 +117,9 @@ def _configuration(records):
     fields = ", ".join(f"{name} {' or '.join(map(str, used))}" for name, used in values.items())
     return [
         f"rlvc {rlvc.__version__} with the defaults of rlvc.learn in all tasks: a planner on up to "
-        "64 real numbers, else an agent. A task sets the seed, the number of interactions and, on bits, the "
-        "discount. An agent learns after each hundredth of the interactions, at least 100; the memory "
-        f"holds them all. The rest: {fields}.",
+        "64 real numbers, else an agent. A task sets the seed, the number of interactions and, on bits, "
+        "the discount. An agent learns after each hundredth of the interactions, at least 100; the "
+        f"memory holds them all. The rest: {fields}.",
         "",
     ]
 

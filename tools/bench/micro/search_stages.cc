@@ -85,7 +85,8 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     Winner winner = {};
     if (feature) {
         const rlvc_table &table = search.evidence.per_action.table;
-        winner = {{about.score, table.a + table.b, table.a, table.a + table.c},
+        const auto count = [](rlvc_count n) { return static_cast<uint32_t>(n); };
+        winner = {{about.score, count(table.a + table.b), count(table.a), count(table.a + table.c)},
                   rlvc_bits_feature(feature)};
     }
     return winner;

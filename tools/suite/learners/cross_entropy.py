@@ -2,8 +2,8 @@
 """A linear policy by the cross-entropy method: weights are drawn from a normal distribution, which moves
 to those of the best episodes.
 
-Mannor, Rubinstein and Gat, The cross entropy method for fast policy search, 2003; with noise that is added
-to the deviation (Szita and Lorincz, 2006)."""
+Mannor, Rubinstein and Gat, The cross entropy method for fast policy search, 2003; with noise that is
+added to the deviation (Szita and Lorincz, 2006)."""
 
 import numpy as np
 
