@@ -11,6 +11,7 @@ import pathlib
 import re
 import sys
 
+import gymnasium
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
@@ -148,6 +149,14 @@ def tiled(folder):
     save(plot.features(made, objects=env.objects), folder / "features.svg")
 
 
+def policies(folder):
+    """The policies of the guide: over two components, and on a map."""
+    pole = rlvc.learn(gymnasium.make("CartPole-v1"), 2000, seed=1)
+    save(pole.plot("regions"), folder / "regions.svg")
+    env = gymnasium.make("CliffWalking-v1")
+    save(rlvc.learn(env, 8000, seed=1).plot("grid", env=env), folder / "cliff.svg")
+
+
 def learners(folder):
     """RESULTS.md's comparison of learners in Sutton's maze, as bars."""
     text = (ROOT / "RESULTS.md").read_text(encoding="utf-8")
@@ -189,6 +198,7 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "pictures"
     with mpl.rc_context(STYLE):
         pictures(folder)
+        policies(folder)
         learners(folder)
         tiled(folder)
     for file in folder.glob("*.svg"):

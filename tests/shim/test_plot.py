@@ -6,8 +6,11 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import gymnasium
 import numpy as np
 import pytest
+from matplotlib.contour import ContourSet
+from matplotlib.figure import Figure
 
 import rlvc
 import rlvc.envs
@@ -69,6 +72,156 @@ def test_from_an_agent_and_a_run(run, kind, tmp_path):
         plot.learning_curve(run.agent)
 
 
+# ---------------------------------------------------------------- asked of a run
+
+
+@pytest.fixture(scope="module")
+def pole():
+    return rlvc.learn(gymnasium.make("CartPole-v1"), 300, seed=1)
+
+
+@pytest.fixture(scope="module")
+def lake():
+    return rlvc.learn(gymnasium.make("FrozenLake-v1", is_slippery=False), 300, seed=1)
+
+
+HERE = [0.0, 0.1, 0.02, -0.1]
+OF_A_RUN = [("regions", {}), ("regions", {"components": ["angle", "position"], "observation": HERE}),
+            ("importances", {}), ("path", {"observation": HERE})]  # fmt: skip
+
+
+def within(figure):
+    """All type lies within the figure."""
+    figure.canvas.draw()
+    box = figure.get_tightbbox()
+    width, height = figure.get_size_inches()
+    return min(box.x0, box.y0) > -0.1 and box.x1 < width + 0.1 and box.y1 < height + 0.1
+
+
+@pytest.mark.parametrize(("kind", "asked"), OF_A_RUN)
+def test_pictures_of_a_run(pole, kind, asked, tmp_path):
+    for suffix, begin in (("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")):
+        file = tmp_path / f"picture.{suffix}"
+        figure = pole.plot(kind, file, **asked)
+        assert file.read_bytes().startswith(begin)
+    assert within(figure)
+    axes = Figure().subplots()
+    assert pole.plot(kind, ax=axes, **asked) is axes.figure
+    assert axes.has_data() or axes.texts
+
+
+def test_regions_are_the_actions_that_are_taken(pole):
+    figure = pole.plot("regions", components=["angle", "velocity"], observation=HERE)
+    axes = figure.axes[0]
+    filled = [c for c in axes.get_children() if isinstance(c, ContourSet) and c.filled]
+    shown = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert shown[-1] == "seen"
+    assert len(filled) == len(shown) - 1 > 1
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    told = 0
+    for angle, velocity in np.random.default_rng(3).uniform((left, low), (right, high), (40, 2)):
+        action = pole.predict(np.array([HERE[0], velocity, angle, HERE[3]], np.float32))
+        there = [region.get_paths()[0].contains_point((angle, velocity)) for region in filled]
+        told += shown[there.index(True)] == pole.actions.name(int(action))
+    assert told >= 39  # a border is drawn between two points of three hundred
+
+
+def test_importances_and_path_say_what_the_run_says(pole):
+    axes = pole.plot("importances").axes[0]
+    found = pole.importances()
+    assert [label.get_text() for label in axes.get_yticklabels()] == list(found)
+    assert [bar.get_width() for bar in axes.patches] == list(found.values())
+    explained = pole.explain(HERE)
+    shown = [text.get_text() for text in pole.plot("path", observation=HERE).axes[0].texts]
+    for step in explained.steps:
+        assert any(text.startswith(f"{step.test}?") for text in shown)
+    assert explained.action_name in shown
+
+
+def arrows(axes):
+    """The arrows of a map: of each cell (x, y) the way that the arrow goes."""
+    found = {}
+    for text in axes.texts:
+        if getattr(text, "arrow_patch", None) is not None:
+            (x, y), (u, v) = text.xy, text.xyann
+            found[int((x + u) / 2), int((y + v) / 2)] = (round(x - u), round(y - v))
+    return found
+
+
+WAYS = {
+    "FrozenLake-v1": [(-1, 0), (0, 1), (1, 0), (0, -1)],
+    "CliffWalking-v1": [(0, -1), (1, 0), (0, 1), (-1, 0)],
+}
+
+
+@pytest.mark.parametrize("task", list(WAYS))
+def test_arrows_are_what_the_policy_does(task, tmp_path):
+    env = gymnasium.make(task)
+    run = rlvc.learn(env, 600, seed=1, epsilon=0.5)
+    run.compact()
+    figure = run.plot("grid", tmp_path / "grid.svg", env=env)
+    assert within(figure)
+    shown = arrows(figure.axes[0])
+    width = 4 if task == "FrozenLake-v1" else 12
+    assert len(shown) == (11 if task == "FrozenLake-v1" else 37)  # no holes, no cliff, no goal
+    for (x, y), way in shown.items():
+        assert way == WAYS[task][int(run.predict(y * width + x))], (x, y)
+
+
+def test_taxi_has_a_board_for_each_ride():
+    env = gymnasium.make("Taxi-v4")
+    run = rlvc.learn(env, 300, seed=1)
+    axes = Figure(figsize=(8, 9)).subplots()
+    figure = run.plot("grid", env=env, ax=axes)
+    assert within(figure)
+    letters = [text.get_text() for text in axes.texts]
+    assert letters.count("there already") == 4
+    signs = letters.count("P") + letters.count("D")
+    assert signs + sum(getattr(text, "arrow_patch", None) is not None for text in axes.texts) == 400
+
+
+def test_what_a_run_cannot_draw(pole, lake, made, env):
+    for kind in ("regions", "importances", "path", "grid"):
+        with pytest.raises(errors.RunError, match=rf"{kind}: drawn of an rlvc\.Run"):
+            plot.KINDS[kind](made)
+    for call, said in [
+        (lambda: lake.plot("regions"), "two components of real numbers"),
+        (lambda: pole.plot("regions", components=["angle"]), "give two of position, velocity"),
+        (lambda: pole.plot("path"), "give the observation"),
+        (lambda: lake.plot("grid"), "give a FrozenLake"),
+        (lambda: lake.plot("grid", env=env), "give a FrozenLake"),
+        (lambda: pole.plot("grid", env=gymnasium.make("Taxi-v4")), "does not observe the number"),
+    ]:
+        with pytest.raises(errors.RunError, match=said):
+            call()
+
+
+def test_the_command_draws_a_saved_run(pole, lake, tmp_path, capsys):
+    saved, frozen = str(tmp_path / "pole.rlvc"), str(tmp_path / "lake.rlvc")
+    pole.save(saved)
+    lake.save(frozen)
+    drawn = str(tmp_path / "drawn.pdf")
+    for arguments in (
+        [saved, "regions", drawn, "--components", "angle,velocity", "--observation", json.dumps(HERE)],
+        [saved, "importances", drawn], [saved, "path", drawn, "--observation", json.dumps(HERE)],
+        [frozen, "grid", drawn, "--env", "FrozenLake-v1", "--env-arg", "is_slippery=False"],
+    ):  # fmt: skip
+        assert command.main(["plot", *arguments]) == 0
+    for arguments, said in (
+        ([saved, "tree", drawn, "--observation", "5"], "tree does not take it"),
+        ([saved, "path", drawn, "--observation", "{"], "is not JSON"),
+        ([frozen, "grid", drawn], "give a FrozenLake"),
+    ):
+        assert command.main(["plot", *arguments]) == 1
+        assert said in capsys.readouterr().err
+
+
+def test_into_axes_of_the_caller(made):
+    for kind in ("values", "splits"):
+        axes = Figure().subplots()
+        assert plot.KINDS[kind](made, ax=axes) is axes.figure
+
+
 def texts(figure):
     return {text.get_text() for axes in figure.axes for text in axes.texts}
 
@@ -82,12 +235,7 @@ def test_the_maze_shows_every_class(made):
 def test_nothing_is_cut(made):
     """All type lies within its figure, and cells' numbers within their cells."""
     for kind in ("maze", "values", "curve", "splits"):
-        figure = plot.KINDS[kind](made)
-        figure.canvas.draw()
-        box = figure.get_tightbbox()
-        width, height = figure.get_size_inches()
-        assert box.x0 > -0.1 and box.y0 > -0.1, kind
-        assert box.x1 < width + 0.1 and box.y1 < height + 0.1, kind
+        assert within(plot.KINDS[kind](made)), kind
 
 
 def test_pale_colours_carry_black_type():

@@ -157,15 +157,16 @@ def evaluate_command(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _observation(text: str) -> Any:
+    try:
+        return json.loads(text)
+    except ValueError as error:
+        raise ConfigError(f"observation: {text!r:.80} is not JSON: {error}") from None
+
+
 def explain_command(arguments: argparse.Namespace) -> int:
     """Print the path of an observation."""
-    try:
-        observation = json.loads(arguments.observation)
-    except ValueError as error:
-        raise ConfigError(
-            f"observation: {arguments.observation!r:.80} is not JSON: {error}"
-        ) from None
-    print(load(arguments.file).explain(observation))
+    print(load(arguments.file).explain(_observation(arguments.observation)))
     return 0
 
 
@@ -188,13 +189,29 @@ def export_command(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _drawn(arguments: argparse.Namespace) -> dict[str, Any]:
+    """What a figure is asked for beside the run."""
+    given = {name: getattr(arguments, name) for name in ("components", "observation", "env")}
+    chosen = {name: value for name, value in given.items() if value is not None}
+    takes = {"regions": ("components", "observation"), "path": ("observation",), "grid": ("env",)}
+    for name in chosen:
+        if name not in takes.get(arguments.kind, ()):
+            raise ConfigError(f"--{name}: {arguments.kind} does not take it")
+    if "observation" in chosen:
+        chosen["observation"] = _observation(chosen["observation"])
+    if "env" in chosen:
+        chosen["env"] = _environment(chosen["env"], arguments.env_arg)
+    return chosen
+
+
 def plot_command(arguments: argparse.Namespace) -> int:
     """Draw a run or a report."""
     from .. import plot
 
+    asked = _drawn(arguments)
     try:
         source = load(arguments.run) if is_run(arguments.run) else arguments.run
-        plot.KINDS[arguments.kind](source, arguments.file)
+        plot.KINDS[arguments.kind](source, arguments.file, **asked)
     except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         if isinstance(error, Error):
             raise

@@ -14,7 +14,11 @@ from ..agent.planner_config import PlannerConfig
 from ..fleet import command as fleet
 from ..learning.learn import Method
 
-FIGURES = ("maze", "values", "curve", "splits", "tree", "tiles", "features")  # of rlvc.plot
+FIGURES = (
+    *("maze", "values", "curve", "splits", "tree", "tiles", "features"),
+    *("regions", "importances", "path", "grid"),  # of a saved run
+)
+"""The figures of rlvc.plot."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -183,6 +187,27 @@ def _add_of_a_run(commands: Any) -> None:
     add("--name", metavar="NAME", default="policy", help="prefix in C (default: %(default)s)")
 
 
+def _add_plot(commands: Any) -> None:
+    plot = commands.add_parser(
+        "plot",
+        help="draw a run or a report",
+        description="Draws a saved run, or a report of 'learn --json' or of run_gridworld --json. "
+        "Regions, importances, path and grid need a saved run.",
+    )
+    add = plot.add_argument
+    add("run", metavar="RUN")
+    add("kind", choices=FIGURES)
+    add("file", metavar="FILE", help="a .png, .svg or .pdf")
+    add("--components", type=_listed, metavar="A,B", help="of regions: the two that are drawn")
+    add(
+        "--observation",
+        metavar="JSON",
+        help="of a path: the observation; of regions: what the other components are",
+    )
+    add("--env", metavar="ENV", help="of a grid: FrozenLake-v1, CliffWalking-v1 or Taxi-v4")
+    _add_env_options(add)
+
+
 def make_parser() -> argparse.ArgumentParser:
     """Make the parser of all commands.
 
@@ -198,14 +223,7 @@ def make_parser() -> argparse.ArgumentParser:
     _add_learn(commands)
     _add_of_a_run(commands)
 
-    plot = commands.add_parser(
-        "plot",
-        help="draw a run or a report",
-        description="Draws a saved run, or a report of 'learn --json' or of run_gridworld --json.",
-    )
-    plot.add_argument("run", metavar="RUN")
-    plot.add_argument("kind", choices=FIGURES)
-    plot.add_argument("file", metavar="FILE", help="a .png, .svg or .pdf")
+    _add_plot(commands)
 
     log = commands.add_parser(
         "log",

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..errors import RunError
-from .drawing import BLUE, GREY, ORANGE, Source, explained, need, reports, save, tidy
+from .drawing import BLUE, GREY, ORANGE, Source, axes_of, explained, need, reports, save, tidy
 
 
 def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
@@ -69,10 +69,9 @@ def returns(source: Any, file: str | Path | None = None, ax: Any = None) -> Figu
     """Draw the return without exploring over interactions: of an EvalCallback, or of learn_many.
 
     Of many runs the line is the median, and the band holds half of them; thin lines are the worst and
-    the best. ``ax`` is an axes to draw into.
+    the best.
     """
-    figure = Figure(figsize=(7, 4), layout="constrained") if ax is None else ax.figure
-    axes = figure.subplots() if ax is None else ax
+    figure, axes = axes_of(ax, 7, 4)
     if hasattr(source, "evaluations"):
         means = np.array([evaluation.mean for evaluation in source.evaluations])
         axes.plot(source.interactions, means, color=BLUE, linewidth=2, marker="o", markersize=3.5)
@@ -91,7 +90,7 @@ def returns(source: Any, file: str | Path | None = None, ax: Any = None) -> Figu
     return save(figure, file)
 
 
-def splits(source: Source, file: str | Path | None = None) -> Figure:
+def splits(source: Source, file: str | Path | None = None, ax: Any = None) -> Figure:
     """Draw a disc for each split, by feature and learning step. Larger discs have smaller p-values.
 
     Needs ``tree``.
@@ -107,8 +106,7 @@ def splits(source: Source, file: str | Path | None = None) -> Figure:
     for node in found:
         tests.setdefault(explained(node["test"], report), len(tests))
     height = min(20.0, max(2.5, 0.3 * len(tests) + 1.2))
-    figure = Figure(figsize=(7.5, height), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = axes_of(ax, 7.5, height)
     at: dict[tuple[int, int], int] = {}
     xs, ys, sizes = [], [], []
     for node in found:

@@ -47,6 +47,23 @@ def reports(source: Source) -> list[dict[str, Any]]:
     return [_with_tables({**source, **run}) for run in runs]
 
 
+def run_of(source: Source, kind: str) -> Any:
+    """Return a source that is a run: some figures ask it how it acts, which no report can tell."""
+    if not hasattr(source, "learner"):
+        raise RunError(
+            f"{kind}: drawn of an rlvc.Run, or of its file, and not of a report or a tree"
+        )
+    return source
+
+
+def axes_of(ax: Any, width: float, height: float) -> tuple[Figure, Any]:
+    """Return the axes to draw into with their figure, or new ones of this size in inches."""
+    if ax is not None:
+        return ax.figure, ax
+    figure = Figure(figsize=(width, height), layout="constrained")
+    return figure, figure.subplots()
+
+
 def _with_tables(report: dict[str, Any]) -> dict[str, Any]:
     """Add tables of classes and actions to a report that lists cells (Tiled Gridworld)."""
     if "cell" not in report:

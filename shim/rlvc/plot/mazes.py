@@ -21,6 +21,7 @@ from .drawing import (
     GREY,
     WALL,
     Source,
+    axes_of,
     circle,
     need,
     pictures_of,
@@ -34,6 +35,24 @@ def write(axes: Any, x: float, y: float, text: str, size: float, colour: str = "
     """Write in the middle of the cell (x, y)."""
     axes.text(
         x + 0.5, y + 0.5, text, ha="center", va="center", fontsize=size, color=colour, zorder=5
+    )
+
+
+def arrow(axes: Any, x: float, y: float, move: tuple[int, int], size: float) -> None:
+    """Draw an arrow in the cell (x, y)."""
+    dx, dy = 0.32 * move[0], 0.32 * move[1]
+    axes.annotate(
+        "",
+        xy=(x + 0.5 + dx, y + 0.5 + dy),
+        xytext=(x + 0.5 - dx, y + 0.5 - dy),
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": BLUE,
+            "linewidth": 1.6 * size,
+            "mutation_scale": 12 * size,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
     )
 
 
@@ -116,20 +135,7 @@ def _policy(axes: Any, report: dict[str, Any]) -> None:
         if action not in ARROWS:
             write(axes, x, y, "?", _fit(width, 10))
             continue
-        dx, dy = ARROWS[action]
-        axes.annotate(
-            "",
-            xy=(x + 0.5 + 0.32 * dx, y + 0.5 + 0.32 * dy),
-            xytext=(x + 0.5 - 0.32 * dx, y + 0.5 - 0.32 * dy),
-            arrowprops={
-                "arrowstyle": "-|>",
-                "color": BLUE,
-                "linewidth": _fit(width, 1.6),
-                "mutation_scale": _fit(width, 12),
-                "shrinkA": 0,
-                "shrinkB": 0,
-            },
-        )
+        arrow(axes, x, y, ARROWS[action], _fit(width, 1.0))
     _grid(axes, rows)
 
 
@@ -153,7 +159,7 @@ def maze(source: Source, file: str | Path | None = None) -> Figure:
     return save(figure, file)
 
 
-def values(source: Source, file: str | Path | None = None) -> Figure:
+def values(source: Source, file: str | Path | None = None, ax: Any = None) -> Figure:
     """Draw the value of each cell of a maze as a heat map, in units of return.
 
     Needs ``maze``, ``cell_classes`` and ``tree``.
@@ -165,10 +171,7 @@ def values(source: Source, file: str | Path | None = None) -> Figure:
         [[math.nan if c is None else worth[c] for c in row] for row in report["cell_classes"]]
     )
     side = min(9.0, max(5.0, 0.75 * len(rows[0])))
-    figure = Figure(
-        figsize=(side + 1.2, side * len(rows) / len(rows[0]) + 0.6), layout="constrained"
-    )
-    axes = figure.subplots()
+    figure, axes = axes_of(ax, side + 1.2, side * len(rows) / len(rows[0]) + 0.6)
     board(axes, rows, "Value of each cell")
     extent = (0, len(rows[0]), len(rows), 0)
     shown = axes.imshow(np.ma.masked_invalid(table), cmap="cividis", extent=extent, zorder=0)
