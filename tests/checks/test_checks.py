@@ -228,13 +228,16 @@ def test_coverage(tree):
                 "branches": [[1, 5, 1, 9, 3, 0, 0, 0, 4]],
                 "mcdc_records": [[2, 5, 2, 9, 0, 5, [True, False]]]}
         (tree.folder / "all.json").write_text(json.dumps({"data": [{"files": [file]}]}), encoding="utf-8")
-        return tree.check("coverage", tree.folder / "all.json")
+        lines = "".join(f"DA:{i},{int(i >= missed.get('lines', 0))}\n" for i in range(9))
+        (tree.folder / "all.lcov").write_text(f"SF:{file['filename']}\n{lines}end_of_record\n", encoding="utf-8")
+        return tree.check("coverage", tree.folder / "all.json", tree.folder / "all.lcov")
 
     excuse = 'Unreachable("core/src/base/rng.c", "return n + 1;", {"branches": 1}, "")'
     assert run({}, "")[0] == 0
     status, printed = run({"branches": 1, "mcdc": 1}, "")
     assert status == 1 and ":1:5: never false" in printed and ":2:5: not shown to decide: condition 2" in printed
     assert run({"branches": 1}, excuse)[0] == 0
+    assert run({"lines": 1}, "")[0] == 1
     assert run({"branches": 2}, excuse)[0] == 1
     assert run({}, excuse)[0] == 1
     assert run({"branches": 1}, excuse.replace("n + 1", "n + 2"))[0] == 1

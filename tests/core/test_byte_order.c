@@ -82,11 +82,13 @@ static void test_numbers_beyond_the_record(void **state) {
     (void)state;
     rlvc_agent *agent, *loaded;
     rlvc_store store;
+    const float x[COMPONENTS] = {1.5f, 2.0f};
     (void)learn();
     domain.percept_words = UINT32_MAX;
     domain.feature_words = UINT32_MAX;
     domain.feature_halves = UINT32_MAX;
     assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);
+    assert_int_equal(rlvc_begin(agent, x), RLVC_OK);
     store = medium_store(&store_bytes, &config, &domain, 0);
     assert_int_equal(rlvc_save(agent, &store), RLVC_OK);
     assert_int_equal(rlvc_load(&config, &domain, other_block, sizeof other_block, &store, &loaded),
@@ -180,12 +182,28 @@ static void test_log_of_a_failing_tape(void **state) {
     }
 }
 
+/* Of numbers alone, no bytes are left to be written after them. */
+static void test_log_of_numbers(void **state) {
+    (void)state;
+    static tape t;
+    rlvc_log_writer writer;
+    unsigned char percept[PERCEPT];
+    fill(percept, 0);
+    memset(&t, 0, sizeof t);
+    assert_int_equal(rlvc_log_open(&writer, 4, 2, tape_write, &t), RLVC_OK);
+    writer.percept_words = 1;
+    const uint32_t calls = t.calls;
+    assert_int_equal(rlvc_log_begin(&writer, percept), RLVC_OK);
+    assert_int_equal(t.calls, calls + 3u); /* head, number, check */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_snapshot),
         cmocka_unit_test(test_numbers_beyond_the_record),
         cmocka_unit_test(test_log),
         cmocka_unit_test(test_log_of_a_failing_tape),
+        cmocka_unit_test(test_log_of_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -481,6 +481,12 @@ static void test_refusals(void **state) {
         assert_int_equal(rlvc_learn_counts(agent, &counts, workspace, sizeof workspace, &progress),
                          RLVC_E_CONFIG);
     }
+    configure(0);
+    p.config.dependence = 1; /* which nothing asks for without successors */
+    p.config.successors = 0;
+    agent = agent_in(ring, sizeof ring);
+    assert_int_equal(rlvc_learn_counts(agent, &counts, workspace, sizeof workspace, &progress),
+                     RLVC_OK);
 }
 
 static void test_follow_is_needed(void **state) {

@@ -5,21 +5,14 @@ import ctypes
 import numpy
 import pytest
 
-from binding import LIBRARY, struct
+from binding import LIBRARY, Domain, struct
 
 Thresholds = struct("Thresholds", components=ctypes.c_uint32, cutpoints=ctypes.c_uint32,
                     oblique=ctypes.c_uint8, reserved=ctypes.c_uint8 * 3)
-Domain = struct("Domain", ctx=ctypes.c_void_p, percept_bytes=ctypes.c_uint32,
-                feature_bytes=ctypes.c_uint32, features_max=ctypes.c_uint32, kind=ctypes.c_uint32,
-                exhibits=ctypes.c_void_p,
-                candidates=ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p,
-                                            ctypes.c_uint32, ctypes.c_uint32, ctypes.c_void_p,
-                                            ctypes.POINTER(ctypes.c_uint32)),
-                detect=ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p,
-                                        ctypes.c_uint32, ctypes.c_uint32, ctypes.c_void_p,
-                                        ctypes.c_uint32, ctypes.c_void_p),
-                oracle=ctypes.c_void_p, name=ctypes.c_void_p, check_percept=ctypes.c_void_p,
-                check_feature=ctypes.c_void_p)
+CANDIDATES = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_uint32,
+                              ctypes.c_void_p, ctypes.POINTER(ctypes.c_uint32))
+DETECT = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_uint32,
+                          ctypes.c_void_p, ctypes.c_uint32, ctypes.c_void_p)
 Samples = struct("Samples", percepts=ctypes.c_void_p, sample=ctypes.c_void_p,
                  percept_bytes=ctypes.c_uint32, count=ctypes.c_uint32)
 FEATURE = numpy.dtype([("cutpoint", "f4"), ("slope", "f4"), ("component", "u2"), ("other", "u2")])
@@ -38,20 +31,22 @@ class Class:
         self.made = Thresholds(components, cutpoints, oblique)
         self.domain = Domain()
         assert LIBRARY.rlvc_thresholds_domain(ctypes.byref(self.made), ctypes.byref(self.domain)) == 0
+        self.call_candidates = CANDIDATES(self.domain.candidates)
+        self.call_detect = DETECT(self.domain.detect)
         self.samples = Samples(self.x.ctypes.data, self.pairs.ctypes.data, 4 * components, count)
 
     def candidates(self):
         made, written = [], ctypes.c_uint32(64)
         while written.value == 64:
             block = numpy.zeros(64, FEATURE)
-            assert self.domain.candidates(self.domain.ctx, ctypes.addressof(self.samples),
+            assert self.call_candidates(self.domain.ctx, ctypes.addressof(self.samples),
                                           sum(map(len, made)), 64, block.ctypes.data, written) == 0
             made.append(block[:written.value])
         return numpy.concatenate(made)
 
     def detect(self, features, first, count):
         columns = numpy.zeros(len(features), numpy.uint64)
-        assert self.domain.detect(self.domain.ctx, ctypes.addressof(self.samples), first, count,
+        assert self.call_detect(self.domain.ctx, ctypes.addressof(self.samples), first, count,
                                   features.ctypes.data, len(features), columns.ctypes.data) == 0
         return columns[None, :] >> numpy.arange(count, dtype=numpy.uint64)[:, None] & 1 == 1
 

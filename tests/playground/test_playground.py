@@ -162,7 +162,7 @@ def test_keys(page):
 
 def test_large_maze(page):
     page.select_option("#preset", "Nine rooms, 30 by 30")
-    page.evaluate("page.then(({lab, maze}) => { while (lab.view.classes < 2) lab.tick(1000); maze.refresh(true); })")
+    page.evaluate("page.then(({lab, maze}) => { while (lab.view.classes < 200) lab.tick(1000); maze.refresh(true); })")
     nodes = page.locator("#tree g.node").count()
     assert 100 < nodes < 200, "the parts farthest from the root are folded"
     page.locator("#tree g.folded").first.click()

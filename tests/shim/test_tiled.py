@@ -170,7 +170,7 @@ def test_pictures_that_were_given(learnt):
     for draw in (plot.tiles, plot.features):
         with pytest.raises(errors.RunError, match="no options"):
             draw(made)
-        with pytest.raises(errors.RunError, match=r"\.png or a \.svg"):
+        with pytest.raises(errors.RunError, match=r"\.png, a \.svg or a \.pdf"):
             draw(made, "picture.jpg", other.objects)
     shown(plot.features(made, objects=other.objects))
 

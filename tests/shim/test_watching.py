@@ -80,13 +80,13 @@ def test_a_hidden_state_is_remembered():
     assert env.observation_space.contains(env.reset(seed=1)[0])
     assert env.observation_space.contains(env.step(0)[0])
     returns = [
-        rlvc.learn(rlvc.History(Corridor(), 3), 4000, seed=seed, discount=0.95)
+        rlvc.learn(rlvc.History(Corridor(), 3), 6000, seed=seed, discount=0.95)
         .evaluate(rlvc.History(Corridor(), 3), 50).mean
         for seed in range(10)
     ]  # fmt: skip
     assert sum(value == 4.0 for value in returns) >= 9, returns
-    assert rlvc.learn(Corridor(), 4000, seed=1, discount=0.95).evaluate(Corridor(), 50).mean < 3
-    run = rlvc.learn(rlvc.History(Corridor(), 3), 4000, seed=1, discount=0.95)
+    assert rlvc.learn(Corridor(), 6000, seed=1, discount=0.95).evaluate(Corridor(), 50).mean < 3
+    run = rlvc.learn(rlvc.History(Corridor(), 3), 6000, seed=1, discount=0.95)
     assert "2 ago" in run.text()
 
 
