@@ -176,7 +176,7 @@ static double misplaced(unsigned char *p, uint32_t i, uint32_t j, const float pl
 /* The least distance of a percept from a feature's pattern, squared; or infinite. */
 static double distance_by_definition(uint32_t at, uint32_t j) {
     unsigned char *p = percept(at);
-    double least = INFINITY;
+    double least = HUGE_VAL;
     float place[3];
     memcpy(place, place_of(j), sizeof place);
     for (uint32_t a = 0; a < count_of(at); a++) {

@@ -340,12 +340,12 @@ def add_table(sums, table):
 
 
 def sum_log_p(statistic, degrees):
-    """ln p; of more than 255 degrees of freedom that of 255, as many standard deviations above the mean."""
+    """ln p; of more than 24 degrees of freedom that of 24, as many standard deviations above the mean."""
     if statistic <= degrees:
         return 0.0
-    if degrees > 255:
-        statistic = 255 + (statistic - degrees) * numpy.sqrt(255 / degrees)
-        degrees = 255
+    if degrees > 24:
+        statistic = 24 + (statistic - degrees) * numpy.sqrt(24 / degrees)
+        degrees = 24
     return scipy.stats.chi2.logsf(statistic, degrees)
 
 

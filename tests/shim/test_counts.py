@@ -139,7 +139,7 @@ def test_faults_are_named(field, value, text):
 
 def learn(some, tested=(), **config):
     """The agent that counts make, and the passes."""
-    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001, "dependence": False} | config
+    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001} | config
     agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
     progress = rounds.Progress()
     rounds.learn(agent, lambda cell: counted(some, rounds.question_of(agent, cell, False)), progress,
@@ -158,7 +158,7 @@ def expect_same(one, other):
 )
 def test_same_tree_as_in_memory(slip, rewards):
     some = worlds.maze(20_000, slip=slip, rewards=rewards)
-    expected = rlvc.learn_from(worlds.log_of(some), actions=4, dependence=False).agent
+    expected = rlvc.learn_from(worlds.log_of(some), actions=4).agent
     agent, progress = learn(some)
     expect_same(agent, expected)
     assert progress.passes <= 1 + len(rounds.tested_by(agent))
@@ -173,10 +173,10 @@ def test_what_counts_cannot_do_is_refused():
         ({"solver": "sarsa"}, "sarsa depends on the order"),
         ({"solver": "q_learning"}, "q_learning depends on the order"),
         ({"score": "ranks"}, "ranks are not made from counts"),
-        ({"dependence": None}, "how long a feature stays"),
+        ({"dependence": True}, "how long a feature stays"),
     ):
         with pytest.raises(ConfigError, match=text):
-            rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **{"dependence": False} | config)))
+            rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **config)))
     with pytest.raises(ConfigError, match="counts are of bits"):
         rounds.refuse(rlvc.Agent(rlvc.Thresholds(2), 2))
 
@@ -196,7 +196,7 @@ def scaled(part, times):
 def test_more_than_any_ring_holds(total):
     """Scaled counts scale luck as well; but where rewards follow from the cell, luck ends with it."""
     some = worlds.maze(50_000)
-    fields = {"classes": 60, "discount": 0.99, "tolerance": 0.001, "successors": False, "dependence": False}
+    fields = {"classes": 60, "discount": 0.99, "tolerance": 0.001, "successors": False}
     agents = []
     for times in (1, total // len(some)):
         agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
@@ -211,7 +211,7 @@ def test_more_than_any_ring_holds(total):
 
 
 def test_too_many_is_an_error():
-    agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, dependence=False))
+    agent = rlvc.Agent(worlds.BITS, rlvc.Config(4))
     part = scaled(counted(worlds.maze(1000), rounds.question_of(agent, (), False)), 2**48)
     with pytest.raises(RangeError):
         agent.learn_counts(part.native(np.arange(18, dtype=np.uint16), np.zeros(0, np.uint32)))
@@ -236,7 +236,7 @@ def test_without_an_effect_there_is_no_split(count):
     false = 0
     for seed in range(20):
         part = without_effect(np.random.default_rng(seed), count, worlds.BITS, 4)
-        agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, dependence=False))
+        agent = rlvc.Agent(worlds.BITS, rlvc.Config(4))
         native = part.native(np.arange(worlds.BITS, dtype=np.uint16), np.zeros(0, np.uint32))
         false += agent.learn_counts(native).splits > 0
     assert false <= 1
@@ -248,9 +248,9 @@ def test_without_an_effect_there_is_no_split(count):
 def test_a_long_log_is_counted_and_nothing_is_left_out(monkeypatch):
     some = worlds.maze(20_000, slip=0.1)
     log = worlds.log_of(some)
-    expected = rlvc.learn_from(log, actions=4, dependence=False)
+    expected = rlvc.learn_from(log, actions=4)
     monkeypatch.setattr("rlvc.learning.learn._CAPACITY_MAX", 30_000)
-    run = rlvc.learn_from(log, actions=4, dependence=False)
+    run = rlvc.learn_from(log, actions=4)
     expect_same(run.agent, expected.agent)
     assert [(r.step, r.interactions, r.classes, r.splits) for r in run.history] == [(1, 20_000, 46, 45)]
     assert run.agent.statistics.interactions == 20_000
@@ -292,7 +292,7 @@ def test_any_log_makes_the_same_tree(seed):
            "terminated": terminated, "truncated": ~terminated & (rng.random(count) < 0.02)}  # fmt: skip
     config = {"discount": float(rng.choice([0.0, 0.5, 0.99])), "successors": bool(rng.integers(0, 2)),
               "explore": str(rng.choice(["uniform", "directed"])), "classes": int(rng.choice([3, 64])),
-              "dependence": False, "solver": str(rng.choice(["value_iteration", "policy_iteration"]))}  # fmt: skip
+              "solver": str(rng.choice(["value_iteration", "policy_iteration"]))}  # fmt: skip
     expected = rlvc.learn_from(log, actions=actions, **config).agent
     monkey = pytest.MonkeyPatch()
     with monkey.context() as patch:

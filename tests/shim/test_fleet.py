@@ -210,7 +210,7 @@ def test_a_broken_row_group_is_named(tmp_path, some, monkeypatch):
     assert len(run.report.skipped) == 1
     assert "row group 1" in run.report.skipped[0]
     rest = worlds.part_of(some, slice(0, 16_000))
-    expected = rlvc.learn_from(worlds.log_of(rest), actions=4, dependence=False)
+    expected = rlvc.learn_from(worlds.log_of(rest), actions=4)
     expect_same(run, expected.agent)
 
 

@@ -78,7 +78,7 @@ def in_memory(folder):
     loaded = time.perf_counter() - began
     os.unlink(f"{folder}/all.npz")
     began, spent = time.perf_counter(), time.process_time()
-    run = rlvc.learn_from(arrays, actions=4, capacity=2 * len(arrays["actions"]), dependence=False)
+    run = rlvc.learn_from(arrays, actions=4, capacity=2 * len(arrays["actions"]))
     seconds, spent = time.perf_counter() - began, time.process_time() - spent
     return told(run) | {"learn_from": round(seconds, 2), "its CPU": round(spent, 2), "loading": round(loaded, 2)}
 

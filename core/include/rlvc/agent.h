@@ -107,10 +107,10 @@ typedef struct rlvc_config {
     uint8_t explore; /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
 
     /* 1: a feature that is new to the tree counts as fewer samples if it stays as it is from one
-     * visit to a class to the next, since what stays agrees by chance with other things that do. So
-     * percepts that come in a fixed order need more samples. Without effect unless `successors` is
-     * 1, by which what the agent influences is found. 0: the samples of a class count as
-     * independent. Default 1 for bits, else 0. */
+     * visit to a class to the next, since what stays agrees by chance with other things that do:
+     * for rewards that drift by themselves. What is drawn once an episode, as the destination of a
+     * taxi, is then hardly found. Without effect unless `successors` is 1, by which what the agent
+     * influences is found. 0: the samples of a class count as independent. Default 0. */
     uint8_t dependence;
 
     uint8_t reserved; /* 0 */

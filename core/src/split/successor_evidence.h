@@ -51,18 +51,21 @@ static inline void rlvc_lasting_add(rlvc_successor_evidence *evidence,
                                   action->n[0][0]);
 }
 
+/* The most degrees of freedom of a p-value, which bounds what it costs a controller in one step. */
+#define RLVC_SUCCESSOR_DEGREES_MAX 24u
+
 /* ln p, not corrected; 0 where the sum is no larger than its mean. Of more degrees of freedom than
- * rlvc_chi2_survival takes it is that of as many, for a sum as many standard deviations above its
- * mean: as the tails get shorter, no less than the true one. O(degrees). */
+ * RLVC_SUCCESSOR_DEGREES_MAX it is that of as many, for a sum as many standard deviations above its
+ * mean: as the tails get shorter, no less than the true one. O(1). */
 static inline float rlvc_successor_evidence_log_p(const rlvc_successor_evidence *evidence) {
-    const float most = (float)RLVC_CHI2_DEGREES_MAX, mean = (float)evidence->degrees;
+    const float most = (float)RLVC_SUCCESSOR_DEGREES_MAX, mean = (float)evidence->degrees;
     float statistic = evidence->statistic, log_p = 0.0f;
     uint32_t degrees = evidence->degrees;
     if (!(statistic > mean))
         return 0.0f;
-    if (degrees > RLVC_CHI2_DEGREES_MAX) {
+    if (degrees > RLVC_SUCCESSOR_DEGREES_MAX) {
         statistic = most + (statistic - mean) * rlvc_sqrt(most / mean);
-        degrees = RLVC_CHI2_DEGREES_MAX;
+        degrees = RLVC_SUCCESSOR_DEGREES_MAX;
     }
     (void)rlvc_chi2_survival(statistic, degrees, NULL, &log_p);
     return log_p;

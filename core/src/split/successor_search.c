@@ -15,7 +15,7 @@
 enum { PROPOSE, COUNT, WEIGH, TEST, DONE };
 
 /* What weighing a feature is charged: two tables. */
-#define WEIGH_UNITS 16u
+#define WEIGH_UNITS 48u
 
 /* Of each feature of the block. The same number fits on every target, as a snapshot asks for the
  * same blocks. */

@@ -59,7 +59,7 @@ void rlvc_lasting_begin(rlvc_successor_cursor *search, const rlvc_split_input *i
                         const uint32_t *first, uint32_t class_id, uint32_t features);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN). Two units
- * for each feature of each sample, 16 for each feature of a pair, RLVC_TEST_UNITS for each
+ * for each feature of each sample, 48 for each feature of a pair, RLVC_TEST_UNITS for each
  * p-value.
  * @param first as at the beginning
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */

@@ -63,12 +63,12 @@ class Config:
         Whether to also split a class by a feature that the agent influences and that lasts, even
         while all rewards are equal (residual criterion; a domain whose number of candidates is
         known). None: yes for bits, else no.
-    dependence : bool or None
-        Whether a feature that is new to the tree must be significant although it may stay as it is
-        for long, from one visit to a class to the next: what stays agrees with other things that
-        do by chance. It then counts as fewer samples, so that percepts in a fixed order need more
-        of them. No effect without ``successors``, which find what the agent influences. None: yes
-        for bits, else no.
+    dependence : bool
+        Whether a feature that is new to the tree counts as fewer samples if it stays as it is for
+        long, from one visit to a class to the next: what stays agrees with other things that do by
+        chance. For rewards that drift by themselves. What is drawn once an episode, as the
+        destination of a taxi, is then hardly found. No effect without ``successors``, which find
+        what the agent influences.
     explore : {"directed", "uniform"}
         How to explore. directed: one action in two leads towards the nearest class-action pair with
         few tries, the other prefers actions with few tries in the class. uniform: every action is
@@ -107,7 +107,7 @@ class Config:
     solver: Solver = "value_iteration"
     continuing: bool = False
     successors: bool | None = None
-    dependence: bool | None = None
+    dependence: bool = False
     explore: Explore = "directed"
     discount: float = 0.9
     epsilon: float = 0.9

@@ -54,7 +54,7 @@ def why_not(domain: Domain, config: Config) -> str:
         return f"solver: {config.solver} depends on the order of interactions, which counts do not keep"
     if config.score == "ranks":
         return "score: ranks are not made from counts yet: use the information gain"
-    if config.dependence is not False and config.successors is not False:
+    if config.dependence and config.successors is not False:
         return "dependence: counts do not keep how long a feature stays: set dependence to False"
     return ""
 

@@ -321,7 +321,7 @@ def learn_from(
         File to save tree and counts to after each pass, and to go on from if it is there.
     **config
         Fields of :class:`rlvc.Config`. Defaults that differ: those of :func:`rlvc.learn_from`, but
-        ``capacity`` is 2000, for a controller that loads the result, and ``dependence`` is off.
+        ``capacity`` is 2000, for a controller that loads the result.
 
     Returns
     -------
@@ -340,7 +340,7 @@ def learn_from(
     found = opened(source)
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     actions = whole("actions", actions if actions is not None else found.actions, 1, 255)
-    changes = {"capacity": _CAPACITY, "dependence": False} | config
+    changes = {"capacity": _CAPACITY} | config
     settings = default_config(actions, 1, seed, changes)
     made = _domain_of(domain, found)
     agent = Agent(made, settings)

@@ -196,7 +196,7 @@ def learn_from(
 
     Without a ``capacity``, the replay buffer holds all interactions. But more than half a million
     are counted if what is asked for follows from counts (``core/include/rlvc/counts.h``): of bits,
-    with ``dependence=False``. That makes the same tree in less time and memory; the replay buffer is
+    without ``dependence``. That makes the same tree in less time and memory; the replay buffer is
     then empty. :mod:`rlvc.fleet` learns from what does not fit into memory.
     """
     if isinstance(columns, str):
@@ -212,7 +212,7 @@ def learn_from(
         encoder = None
     else:
         made, encoder, before, after = encoded(log, encoder, space, thresholds, names)
-    settings = default_config(known.count, len(log), seed, {"dependence": False} | config)
+    settings = default_config(known.count, len(log), seed, config)
     by_counts = "capacity" not in config and len(log) > settings.capacity // 2
     if by_counts and rounds.why_not(made, settings):
         settings = settings.replace(capacity=2 * len(log))  # all of it, whatever that takes
