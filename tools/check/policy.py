@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-import size
+import cross
+from committed import ROOT
 
 FLASH_MAX = 600
 STACK_MAX = 64
@@ -25,23 +26,25 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=pathlib.Path, help="where maze.h is")
     arguments = parser.parse_args()
-    prefix, options = size.TARGETS["M0"]
-    gcc = [prefix + "gcc", *size.FLAGS, *options, "-Os", f"-I{arguments.folder}"]
+    target = cross.TARGETS["M0"]
+    prefix = target.compiler.removesuffix("gcc")
+    gcc = [target.compiler, *target.options, *cross.FLAGS, "-Os", f"-I{arguments.folder}"]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "main.c").write_text(MAIN, encoding="utf-8")
-        size.run(*gcc, "-fstack-usage", "-c", size.ROOT / "tests/targets/maze_policy.c", "-o",
-                 folder / "policy.o")
-        size.run(*gcc, *size.BARE, folder / "main.c", folder / "policy.o", "-o", folder / "image.elf")
-        needed = size.run(prefix + "nm", "-u", folder / "policy.o").split()
-        policy = size.sections(prefix, folder / "policy.o")
-        image = size.sections(prefix, folder / "image.elf")
+        cross.run(*gcc, "-fstack-usage", "-c", ROOT / "tests/targets/maze_policy.c", "-o", folder / "policy.o")
+        cross.run(*gcc, *cross.BARE, "-Wl,--gc-sections", folder / "main.c", folder / "policy.o", "-o",
+                  folder / "image.elf")
+        needed = cross.run(prefix + "nm", "-u", folder / "policy.o").split()
+        policy = cross.sections("M0", folder / "policy.o")
+        image = sum(cross.sections("M0", folder / "image.elf")[kind] for kind in cross.IN_FLASH)
+        memory = sum(policy[kind] for kind in cross.IN_RAM)
         stack = int((folder / "policy.su").read_text(encoding="utf-8").split("\t")[1])
-    print(f"the policy: {policy[0]} bytes of code, {policy[1]} of constants, {stack} of stack; "
-          f"the image: {image[0] + image[1]}")
-    if needed or policy[2] > 0 or image[0] + image[1] > FLASH_MAX or stack > STACK_MAX:
+    print(f"the policy: {policy['text']} bytes of code, {policy['rodata']} of constants, {stack} of stack; "
+          f"the image: {image}")
+    if needed or memory > 0 or image > FLASH_MAX or stack > STACK_MAX:
         print(f"too much: the limits are {FLASH_MAX} bytes of flash and {STACK_MAX} of stack; of memory "
-              f"{policy[2]} are needed, and the functions {needed}", file=sys.stderr)
+              f"{memory} are needed, and the functions {needed}", file=sys.stderr)
         return 1
     return 0
 
