@@ -34,7 +34,7 @@
 #define CLASSES 52u
 #define EPSILON 0.9f
 #define ALPHA 0.01f
-#define ALPHA_KNOWN 1.0f
+#define ALPHA_KNOWN 0.1f
 #define SUCCESSORS 1
 #endif
 

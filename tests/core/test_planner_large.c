@@ -15,7 +15,7 @@
 #define COMPONENTS 45u /* with two actions 47 terms: a fit that looks at ten rows a term */
 #define STEPS 200u     /* of an episode: more than there are cells of two components */
 
-static uint64_t memory[80000];
+static uint64_t memory[120000];
 
 /* Component 0 goes where the action says, the others are noise. */
 static void move(float *s, uint32_t action, rlvc_rng *rng) {

@@ -89,11 +89,15 @@ static inline void rlvc_evidence_pool(rlvc_pooled *pool, const rlvc_per_action *
 /* Keeps the best of one action.
  * @return 1 if it is the best so far: the caller keeps its feature. O(1). */
 static inline int rlvc_evidence_keep(rlvc_evidence *evidence, const rlvc_per_action *weighed) {
-    const rlvc_per_action *best = &evidence->per_action;
+    rlvc_per_action *best = &evidence->per_action;
     int better = weighed->evidence > best->evidence ||
                  (weighed->evidence == best->evidence && weighed->action < best->action);
-    if (better)
-        evidence->per_action = *weighed;
+    if (better) { /* not as a whole: the bytes between its fields are not set */
+        best->evidence = weighed->evidence;
+        best->score = weighed->score;
+        best->table = weighed->table;
+        best->action = weighed->action;
+    }
     return better;
 }
 
