@@ -66,7 +66,8 @@ static void begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
     search->end = end;
     search->at = first[pair];
     search->samples = first[end] - first[pair];
-    search->room = input->space->column_words / TALLY_WORDS;
+    /* Of no samples there are no candidates to be asked for. */
+    search->room = search->view.count > 0 ? input->space->column_words / TALLY_WORDS : 0;
 }
 
 void rlvc_influence_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
