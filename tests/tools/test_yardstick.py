@@ -120,6 +120,13 @@ def test_an_exact_return_is_what_playing_gives():
     assert total / episodes == pytest.approx(exact, abs=4 * (exact / episodes) ** 0.5)
 
 
+def test_a_learner_is_told_nothing_but_bits():
+    world = lake(True)
+    env = worlds.Seen(gymnasium.make("FrozenLake-v1"), world, seed=1)
+    told = env.reset(seed=1)[1], env.step(0)[-1]
+    assert told == ({}, {})
+
+
 def test_a_random_walk_takes_as_long_as_is_said():
     world = worlds.maze_world(["...", ".#.", "..*"], 0, 0, earned=1.0, cost=0.0, limit=7)
     env, random, taken, found = worlds.Played(world), np.random.default_rng(7), 0, 0

@@ -238,8 +238,12 @@ def table_world(env, parts, distractors):
     return World(following, chance, reward, over, starts / starts.sum(), limit, parts, noise)
 
 
-class Seen(gymnasium.ObservationWrapper):
-    """An environment whose states are observed as a world's bits."""
+class Seen(gymnasium.Wrapper):
+    """An environment whose states are observed as a world's bits, and in no other way.
+
+    So its info is dropped. Taxi's says which actions do something: a policy that was learnt by it does
+    not know better than to do nothing for ever where it is not told.
+    """
 
     def __init__(self, env, world, seed):
         super().__init__(env)
@@ -247,8 +251,15 @@ class Seen(gymnasium.ObservationWrapper):
         self.random = np.random.default_rng(seed)
         self.observation_space = spaces.MultiBinary(world.bits.shape[1])
 
-    def observation(self, observation):
-        return self.world.see([observation], self.random)[0]
+    def _see(self, state):
+        return self.world.see([state], self.random)[0]
+
+    def reset(self, **given):
+        return self._see(self.env.reset(**given)[0]), {}
+
+    def step(self, action):
+        state, *rest, _ = self.env.step(action)
+        return (self._see(state), *rest, {})
 
 
 class Played(gymnasium.Env):
