@@ -70,17 +70,13 @@ def by_counts(folder, sample):
     return told(run) | {"passes": run.report.passes}
 
 
-def in_memory(folder):
+def in_memory(folder, python):
+    """By an interpreter whose package may be of another version."""
     rlvc.fleet.export(folder, f"{folder}/all.npz")
-    began = time.perf_counter()
-    with np.load(f"{folder}/all.npz") as log:
-        arrays = {name: log[name] for name in log.files}
-    loaded = time.perf_counter() - began
+    done = subprocess.run([python, str(pathlib.Path(__file__).with_name("in_memory.py")), f"{folder}/all.npz"],
+                          stdout=subprocess.PIPE, text=True, check=True)
     os.unlink(f"{folder}/all.npz")
-    began, spent = time.perf_counter(), time.process_time()
-    run = rlvc.learn_from(arrays, actions=4, capacity=2 * len(arrays["actions"]))
-    seconds, spent = time.perf_counter() - began, time.process_time() - spent
-    return told(run) | {"learn_from": round(seconds, 2), "its CPU": round(spent, 2), "loading": round(loaded, 2)}
+    return json.loads(done.stdout)
 
 
 def by_workers(folder, workers):
@@ -121,6 +117,8 @@ def count_again(times, follow):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--interactions", type=float, default=1e6, help="default: %(default)s")
+    parser.add_argument("--python", default=sys.executable, help="an interpreter whose package learns in memory, which may "
+                        "be of another version; default: this one")
     parser.add_argument("--instructions", action="store_true", help="count those of the loop a row, by valgrind, and no more")
     arguments = parser.parse_args()
     if arguments.instructions:
@@ -133,11 +131,11 @@ def main():
         for name, function, given in (
             ("counts, one process", by_counts, (0,)),
             ("counts, features guessed", by_counts, (1 << 17,)),
-            ("in memory", in_memory, ()),
             ("counts, one worker", by_workers, (1,)),
             ("counts, two workers", by_workers, (2,)),
         ):
             print(json.dumps({"what": name} | apart(function, folder, *given)), flush=True)
+        print(json.dumps({"what": "in memory"} | in_memory(folder, arguments.python)), flush=True)
 
 
 if __name__ == "__main__":
