@@ -27,7 +27,8 @@ TASKS = {
 
 # Bits that stay as they are with a probability, and normal rewards of which each keeps a part of the last one:
 # independent of each other, but not samples of one trajectory.
-STAYING = {"staying": (0.95, 0.0), "drift": (0.9, 0.9), "slow drift": (0.99, 0.99)}
+STAYING = {"staying": (0.95, 0.0), "drift": (0.9, 0.9),
+           "mixed drift": (0.95, 0.9), "slow drift": (0.99, 0.99)}
 
 SCORES = {"gain": binding.GAIN, "ranks": binding.RANKS}
 

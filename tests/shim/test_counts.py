@@ -173,7 +173,7 @@ def test_what_counts_cannot_do_is_refused():
         ({"solver": "sarsa"}, "sarsa depends on the order"),
         ({"solver": "q_learning"}, "q_learning depends on the order"),
         ({"score": "ranks"}, "ranks are not made from counts"),
-        ({"dependence": True}, "how long a feature stays"),
+        ({"dependence": True}, "the order of interactions"),
     ):
         with pytest.raises(ConfigError, match=text):
             rounds.refuse(rlvc.Agent(8, rlvc.Config(2, **config)))

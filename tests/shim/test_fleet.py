@@ -243,7 +243,7 @@ def test_a_truncated_file(tmp_path, some):
     [({"criterion": "returns"}, "returns depend on the order"), ({"solver": "sarsa"}, "sarsa depends"),
      ({"cluster": "spark://x"}, "cluster: 'spark://x' is neither"), ({"reward_bits": 23}, "reward_bits"),
      ({"reward_grid": -1.0}, "reward_grid"), ({"domain": 40}, "domain: 40 bits"),
-     ({"domain": rlvc.Thresholds(3)}, "counts are of bits"), ({"dependence": True}, "how long a feature stays"), ({"no_such": 1}, "no such field")],
+     ({"domain": rlvc.Thresholds(3)}, "counts are of bits"), ({"dependence": True}, "the order of interactions"), ({"no_such": 1}, "no such field")],
 )  # fmt: skip
 def test_refusals(folder, options, text):
     with pytest.raises(ConfigError, match=text):

@@ -106,11 +106,12 @@ typedef struct rlvc_config {
 
     uint8_t explore; /* RLVC_EXPLORE_*. Default RLVC_EXPLORE_DIRECTED */
 
-    /* 1: a feature that is new to the tree counts as fewer samples if it stays as it is from one
-     * visit to a class to the next, since what stays agrees by chance with other things that do:
-     * for rewards that drift by themselves. What is drawn once an episode, as the destination of a
-     * taxi, is then hardly found. Without effect unless `successors` is 1, by which what the agent
-     * influences is found. 0: the samples of a class count as independent. Default 0. */
+    /* 1: for a feature that is new to the tree the samples of a class count as fewer, if from one
+     * visit to the next both the feature and what it leaves unexplained of the targets stay: what
+     * stays agrees by chance with other things that do. For rewards that drift by themselves. What
+     * is drawn once an episode, as the destination of a taxi, takes longer to be found. Without
+     * effect unless `successors` is 1, by which what the agent influences is found. 0: the samples
+     * of a class count as independent. Default 0. */
     uint8_t dependence;
 
     uint8_t reserved; /* 0 */
@@ -123,8 +124,8 @@ typedef struct rlvc_config {
 
     /* The probability, at most, that the tree ever tests a feature while there is nothing to learn,
      * (0, 1]. All learning steps and all their tests share it (SPEC.md). Assumes that the samples
-     * of one action are independent of each other, or that `dependence` is 1 and a feature that
-     * stays changes as a Markov chain does; nothing is assumed about repeated tests of the growing
+     * of one action are independent of each other, or that `dependence` is 1 and their
+     * correlations fall off evenly; nothing is assumed about repeated tests of the growing
      * database. Once the tree has classes, it is the same probability for each of them. Default
      * 0.01. */
     float alpha;

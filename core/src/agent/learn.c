@@ -201,23 +201,25 @@ static int is_significant(rlvc_agent *agent, const rlvc_split *split, const void
         return -1; /* there are more features to compare with */
     if (!(split->log_p < level))
         return 0;
-    if (!RLVC_HAS_DEPENDENCE || learner->persistence.at == learner->end)
+    if (!RLVC_HAS_DEPENDENCE || rlvc_dependence_done(&learner->dependence, learner->end))
         return 1; /* it is part of the p-value */
     /* All are 0 or 1, and 1 is the residual criterion. */
-    learner->persistence.wanted =
+    learner->dependence.wanted =
         agent->config.dependence & agent->config.successors & agent->config.criterion;
-    return learner->persistence.wanted ? -1 : 1;
+    return learner->dependence.wanted ? -1 : 1;
 }
 
-rlvc_status rlvc_learner_weigh_persistence(rlvc_agent *agent, const void *feature, uint32_t budget,
-                                           uint32_t *used) {
+rlvc_status rlvc_learner_weigh_dependence(rlvc_agent *agent, const void *feature, uint32_t budget,
+                                          uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
-    rlvc_persistence *persistence = &learner->persistence;
-    rlvc_status status = rlvc_persistence_step(persistence, &agent->replay, &agent->domain,
-                                               learner->end, learner->at, feature, budget, used);
-    if (persistence->at == learner->end) {
-        persistence->wanted = 0;
-        rlvc_evidence_discount(&learner->work.split.evidence, rlvc_persistence_effect(persistence));
+    rlvc_dependence *dependence = &learner->dependence;
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, RLVC_CRITERION_RESIDUAL);
+    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
+    rlvc_status status =
+        rlvc_dependence_step(dependence, &input, learner->at, feature, budget, used);
+    if (rlvc_dependence_done(dependence, learner->end)) {
+        dependence->wanted = 0;
+        rlvc_evidence_discount(&learner->work.split.evidence, rlvc_dependence_effect(dependence));
     }
     return status;
 }
@@ -238,7 +240,7 @@ uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *f
     learner->searching = 0;
     learner->walk.compared = 0;
     if (RLVC_HAS_DEPENDENCE)
-        rlvc_persistence_begin(&learner->persistence);
+        rlvc_dependence_begin(&learner->dependence);
     learner->at++;
     return used;
 }
@@ -309,8 +311,8 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
     feature = succession
                   ? rlvc_successor_search_result(&learner->work.successors, &agent->space, &split)
                   : rlvc_split_search_result(&learner->work.split, &agent->space, &split);
-    if (RLVC_HAS_DEPENDENCE && learner->persistence.wanted)
-        return rlvc_learner_weigh_persistence(agent, feature, budget, used);
+    if (RLVC_HAS_DEPENDENCE && learner->dependence.wanted)
+        return rlvc_learner_weigh_dependence(agent, feature, budget, used);
     *used = rlvc_learner_decide(agent, &split, feature);
     return RLVC_OK;
 }

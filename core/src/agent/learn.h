@@ -41,8 +41,8 @@ uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *f
 /* Takes into account how long the feature stays that the search found in class `at`: counts in as
  * much of the ring as the budget allows, a unit each.
  * @return RLVC_OK; RLVC_E_CALLBACK. */
-rlvc_status rlvc_learner_weigh_persistence(rlvc_agent *agent, const void *feature, uint32_t budget,
-                                           uint32_t *used);
+rlvc_status rlvc_learner_weigh_dependence(rlvc_agent *agent, const void *feature, uint32_t budget,
+                                          uint32_t *used);
 
 /* ln of the level at which a feature new to the tree splits a class in this step, or counts as
  * influenced: its share of alpha. O(1). */

@@ -9,7 +9,7 @@
 #include "../solve/value_iteration.h"
 #include "../base/solver_select.h"
 #include "../split/split_search.h"
-#include "../split/persistence.h"
+#include "../split/dependence.h"
 #include "../split/successor_search.h"
 #include "../tree/tree.h"
 
@@ -30,12 +30,12 @@ typedef struct rlvc_learner {
         uint32_t
             compared; /* a search: how many of the tree's features the new one was compared with */
     } walk;
-    rlvc_persistence persistence; /* SEARCH: of what was found in class `at` */
-    uint32_t classes;             /* when this phase began */
-    uint32_t rounds;              /* begun in this step */
-    uint32_t splits;              /* made in this step */
-    uint32_t made;                /* made in this round */
-    uint32_t influenced;          /* SUCCESSORS: features in the workspace's block */
+    rlvc_dependence dependence; /* SEARCH: of what was found in class `at` */
+    uint32_t classes;           /* when this phase began */
+    uint32_t rounds;            /* begun in this step */
+    uint32_t splits;            /* made in this step */
+    uint32_t made;              /* made in this round */
+    uint32_t influenced;        /* SUCCESSORS: features in the workspace's block */
     uint8_t phase;
     uint8_t searching; /* the search in class `at` has begun */
     uint8_t failed;    /* the last call of rlvc_learn did */

@@ -47,7 +47,8 @@ void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_c
     space->features = rlvc_arena_carve(arena, config->features_at_once, feature_bytes);
     space->per_action = rlvc_arena_carve(arena, 1, feature_bytes);
     space->pooled = rlvc_arena_carve(arena, 1, feature_bytes);
-    space->group = rlvc_arena_carve(arena, config->actions, sizeof *space->group);
+    space->of_action.group =
+        rlvc_arena_carve(arena, config->actions, sizeof *space->of_action.group);
     space->pool = rlvc_arena_carve(arena, config->features_at_once, sizeof *space->pool);
     space->feature_bytes = feature_bytes;
     space->features_at_once = config->features_at_once;
@@ -73,7 +74,7 @@ static rlvc_samples view_of(const rlvc_split_cursor *search, const rlvc_group *g
 }
 
 static void open_sort(rlvc_split_cursor *search, const rlvc_workspace *space) {
-    const rlvc_group *group = &space->group[search->action];
+    const rlvc_group *group = &space->of_action.group[search->action];
     rlvc_sample *sample =
         space->rows.sample + (search->view.sample - space->rows.sample) + group->begin;
     rlvc_sort_begin(&search->inner.sort, sample, size_of(group), space->columns);
@@ -128,7 +129,7 @@ void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *
     search->view.sample = space->rows.sample + first[0];
     search->view.count = first[space->actions] - first[0];
     for (uint32_t a = 0; a < space->actions; a++) {
-        rlvc_group *group = &space->group[a];
+        rlvc_group *group = &space->of_action.group[a];
         group->begin = first[a] - first[0];
         group->end = first[a + 1u] - first[0];
         group->cuts = 0;
@@ -154,7 +155,7 @@ static void end_marking(rlvc_split_cursor *search, const rlvc_split_input *input
 
 /* Goes on to the next group. */
 static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input) {
-    rlvc_group *group = &input->space->group[search->action];
+    rlvc_group *group = &input->space->of_action.group[search->action];
     if (BY_RANKS(input) && group->cuts > 0)
         group->cuts = 1; /* a feature makes one test, wherever the cutpoints */
     rlvc_evidence_group(&search->evidence, size_of(group), group->cuts);
@@ -167,7 +168,7 @@ static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input
 /* Marks where cutpoints lie in the group at work, for up to `budget` samples. Targets are gathered
  * into clusters from the lowest up; targets.h says which are distinct. */
 static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, uint32_t budget) {
-    rlvc_group *group = &input->space->group[search->action];
+    rlvc_group *group = &input->space->of_action.group[search->action];
     const rlvc_sample *sample = search->view.sample + group->begin;
     uint64_t *cuts = input->space->cutpoints + group->word;
     uint32_t from = search->at, left = size_of(group) - from;
@@ -192,7 +193,7 @@ static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, u
  * `then`. */
 static void next_group(rlvc_split_cursor *search, const rlvc_workspace *space, uint8_t phase,
                        uint8_t then) {
-    while (search->action < space->actions && space->group[search->action].cuts == 0)
+    while (search->action < space->actions && space->of_action.group[search->action].cuts == 0)
         search->action++;
     search->column = 0;
     enter(search, search->action < space->actions ? phase : then);
@@ -234,7 +235,7 @@ static void open_column(rlvc_split_cursor *search, const rlvc_split_input *input
 static rlvc_status detect(rlvc_split_cursor *search, const rlvc_split_input *input,
                           uint32_t *used) {
     const rlvc_workspace *space = input->space;
-    const rlvc_group *group = &space->group[search->action];
+    const rlvc_group *group = &space->of_action.group[search->action];
     const rlvc_samples view = view_of(search, group);
     rlvc_status status = rlvc_split_input_detect(
         input, &view, &search->at, space->features, search->block,
@@ -266,7 +267,7 @@ static void keep_best_per_action(rlvc_split_cursor *search, const rlvc_workspace
 /* Takes the result of one column and goes on to the next, or to the next group. */
 static void close_column(rlvc_split_cursor *search, const rlvc_split_input *input) {
     const rlvc_workspace *space = input->space;
-    const rlvc_group *group = &space->group[search->action];
+    const rlvc_group *group = &space->of_action.group[search->action];
     const rlvc_cutpoint *found = &search->inner.scan.best;
     rlvc_pooled *pool = &space->pool[search->column];
     if (found->present > 0 && found->present < size_of(group))
@@ -300,7 +301,7 @@ static void close_feature(rlvc_split_cursor *search, const rlvc_workspace *space
 static rlvc_status ask(rlvc_split_cursor *search, const rlvc_split_input *input) {
     const rlvc_workspace *space = input->space;
     const rlvc_domain *domain = input->domain;
-    const rlvc_group *group = &space->group[search->action];
+    const rlvc_group *group = &space->of_action.group[search->action];
     uint32_t at = search->at;
     if (group->cuts == 0 || at == size_of(group)) {
         search->action++;
@@ -327,7 +328,7 @@ static rlvc_status ask(rlvc_split_cursor *search, const rlvc_split_input *input)
  * cutpoint. */
 static rlvc_status answer(rlvc_split_cursor *search, const rlvc_split_input *input) {
     const rlvc_workspace *space = input->space;
-    const rlvc_group *group = &space->group[search->action];
+    const rlvc_group *group = &space->of_action.group[search->action];
     rlvc_answer *answer = &search->inner.answer;
     uint32_t count = size_of(group), below = search->at;
     if (answer->at < count) {

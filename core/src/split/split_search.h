@@ -44,6 +44,12 @@ typedef struct rlvc_group {
     uint32_t word; /* where its words begin in the cutpoints and in each column */
 } rlvc_group;
 
+/* The samples of a class after one action, without a feature and with it: see dependence.h. */
+typedef struct rlvc_sides {
+    float sum[2]; /* of their targets */
+    uint32_t count[2];
+} rlvc_sides;
+
 /* What a p-value is charged: a sum of dozens of terms (chi2.c, table_test.c). */
 #define RLVC_TEST_UNITS RLVC_BUDGET_MIN
 
@@ -56,8 +62,11 @@ typedef struct rlvc_workspace {
     unsigned char *features; /* [features_at_once] the block of candidates */
     unsigned char *per_action; /* the winner per_action, */
     unsigned char *pooled;     /* and together */
-    rlvc_group *group;         /* [actions] */
-    rlvc_pooled *pool;         /* [features_at_once] */
+    union {
+        rlvc_group *group; /* while a class is searched */
+        rlvc_sides *sides; /* while a feature that was found is weighed */
+    } of_action;           /* [actions] */
+    rlvc_pooled *pool;     /* [features_at_once] */
     uint32_t feature_bytes;
     uint32_t features_at_once;
     uint32_t actions;

@@ -23,8 +23,8 @@ void rlvc_cursor_marks_take(const rlvc_agent *agent, rlvc_cursor_mark *mark) {
     else if (learner->phase == RLVC_PHASE_SEARCH && learner->searching) {
         rlvc_split_search_mark(&learner->work.split, mark->word);
         if (learner->work.split.done) {
-            mark->word[8] = learner->persistence.wanted;
-            mark->word[9] = learner->persistence.at;
+            mark->word[8] = learner->dependence.wanted + 2u * learner->dependence.again;
+            mark->word[9] = learner->dependence.at;
         }
     } else if (rlvc_phase_splits(learner->phase) && learner->searching)
         rlvc_successor_search_mark(&learner->work.successors, mark->word);
@@ -133,7 +133,7 @@ static int is_done(const rlvc_agent *agent) {
         return learner->work.novelty.done;
     if (learner->phase == RLVC_PHASE_MODEL)
         return learner->work.model.done;
-    return learner->work.split.done && learner->persistence.at == learner->end;
+    return learner->work.split.done && rlvc_dependence_done(&learner->dependence, learner->end);
 }
 
 /* What was counted while the phase was under way stays as it was loaded. */
@@ -145,16 +145,16 @@ static void novelty_single(rlvc_agent *agent) {
 }
 
 /* Begins, or looks at a position of the ring. */
-static rlvc_status redo_persistence(rlvc_agent *agent) {
+static rlvc_status redo_dependence(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
-    if (!learner->persistence.wanted) {
-        learner->persistence.wanted = 1;
+    if (!learner->dependence.wanted) {
+        learner->dependence.wanted = 1;
         return RLVC_OK;
     }
     rlvc_split split;
     uint32_t used;
     const void *feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
-    return feature ? rlvc_learner_weigh_persistence(agent, feature, 1, &used) : RLVC_E_DAMAGED;
+    return feature ? rlvc_learner_weigh_dependence(agent, feature, 1, &used) : RLVC_E_DAMAGED;
 }
 
 static rlvc_status single(rlvc_agent *agent) {
@@ -163,7 +163,7 @@ static rlvc_status single(rlvc_agent *agent) {
     rlvc_target_input successor = rlvc_learner_target_input(agent, RLVC_TARGET_SUCCESSOR);
     rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
     if (learner->phase == RLVC_PHASE_SEARCH && learner->work.split.done)
-        return redo_persistence(agent);
+        return redo_dependence(agent);
     if (learner->phase == RLVC_PHASE_SEARCH)
         return rlvc_split_search_single(&learner->work.split, &input);
     if (learner->phase == RLVC_PHASE_INFLUENCE || learner->phase == RLVC_PHASE_SUCCESSORS)

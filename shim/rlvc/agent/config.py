@@ -64,11 +64,11 @@ class Config:
         while all rewards are equal (residual criterion; a domain whose number of candidates is
         known). None: yes for bits, else no.
     dependence : bool
-        Whether a feature that is new to the tree counts as fewer samples if it stays as it is for
-        long, from one visit to a class to the next: what stays agrees with other things that do by
-        chance. For rewards that drift by themselves. What is drawn once an episode, as the
-        destination of a taxi, is then hardly found. No effect without ``successors``, which find
-        what the agent influences.
+        Whether, for a feature that is new to the tree, the samples of a class count as fewer if
+        both the feature and what it leaves unexplained of the targets stay for long, from one visit
+        to the next: what stays agrees with other things that do by chance. For rewards that drift by
+        themselves. What is drawn once an episode, as the destination of a taxi, takes longer to be
+        found. No effect without ``successors``, which find what the agent influences.
     explore : {"directed", "uniform"}
         How to explore. directed: one action in two leads towards the nearest class-action pair with
         few tries, the other prefers actions with few tries in the class. uniform: every action is

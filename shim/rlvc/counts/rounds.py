@@ -55,7 +55,7 @@ def why_not(domain: Domain, config: Config) -> str:
     if config.score == "ranks":
         return "score: ranks are not made from counts yet: use the information gain"
     if config.dependence and config.successors is not False:
-        return "dependence: counts do not keep how long a feature stays: set dependence to False"
+        return "dependence: counts do not keep the order of interactions: set dependence to False"
     return ""
 
 
