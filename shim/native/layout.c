@@ -213,6 +213,8 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_policy_info, exact)},
     {FIELD(rlvc_policy_info, as_agent)},
     {FIELD(rlvc_policy_info, reserved)},
+    {FIELD(rlvc_policy_info, value_before)},
+    {FIELD(rlvc_policy_info, value_after)},
     {SIZE(rlvc_store)},
     {FIELD(rlvc_store, ctx)},
     {FIELD(rlvc_store, slot_bytes)},

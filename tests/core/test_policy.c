@@ -117,16 +117,112 @@ static void test_tolerance(void **unused) {
     config.tolerance = 0.0f;
     check_as_agent(compact(agent, &config, &info), agent);
     assert_int_equal(info.leaves, 3);
-    config.tolerance = 0.2f; /* now bit 2 is enough */
+    config.tolerance = 0.02f; /* of 11, so that bit 2 is enough */
     rlvc_policy *policy = compact(agent, &config, &info);
     assert_int_equal(info.leaves, 2);
     for (unsigned char percept = 0; percept < 1u << BITS; percept++)
         assert_true(reward_of(percept, act(policy, percept)) >=
                     reward_of(percept, 1u - act(policy, percept)) - 0.2f);
-    config.tolerance = RLVC_REWARD_MAX;
+    assert_true(info.value_after < info.value_before);
+    assert_true(info.value_after >= info.value_before - 0.22f);
+    config.tolerance = 1.0f;
     policy = compact(agent, &config, &info);
     assert_int_equal(info.leaves, 1);
     assert_int_equal(info.exact, 1);
+}
+
+/* Two worlds that bit 0 tells apart, in which one stays, for ever. Action 0 earns 1 in the one and
+ * `less` in the other, action 1 the other way round, and action 2 tells the tree which is which. */
+static rlvc_agent *make_lasting(float less, float discount, uint32_t sweeps) {
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    assert_int_equal(rlvc_bits_domain(1, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, 3), RLVC_OK);
+    config.capacity = 1000;
+    config.classes = 16;
+    config.discount = discount;
+    config.tolerance = 1e-5f;
+    config.max_sweeps = sweeps;
+    assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);
+    for (uint32_t i = 0; i < 600; i++) {
+        const unsigned char percept = (unsigned char)(i / 300u);
+        const rlvc_choice choice = {(uint8_t)(i % 3u), 0};
+        const float reward = choice.action == percept ? 1.0f
+                             : choice.action < 2u     ? less
+                                                      : -1.0f - 5.0f * (float)percept;
+        if (i % 300u == 0)
+            assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+        assert_int_equal(rlvc_observe(agent, choice, reward, &percept, RLVC_GOES_ON), RLVC_OK);
+    }
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    return agent;
+}
+
+/* A small loss in each step adds up to ten times as much: so less is allowed in a step. */
+static void test_losses_add_up(void **unused) {
+    (void)unused;
+    rlvc_policy_info info;
+    rlvc_agent *agent = make_lasting(0.5f, 0.9f, 10000);
+    rlvc_policy_config config = default_of(agent);
+    config.tolerance = 0.2f; /* of 7: in a step 0.5 would be far less */
+    (void)compact(agent, &config, &info);
+    assert_int_equal(info.leaves, 2);
+    assert_int_equal(info.as_agent, 1);
+    assert_true(info.value_before > 9.99f && info.value_before < 10.01f);
+    assert_true(info.value_after == info.value_before);
+    config.tolerance = 0.8f; /* more than 5 of 7 */
+    (void)compact(agent, &config, &info);
+    assert_int_equal(info.leaves, 1);
+    assert_true(info.value_after > 7.49f && info.value_after < 7.51f); /* 10 and 5 */
+    config.tolerance = 0.3f;
+    (void)compact(agent, &config, &info);
+    assert_int_equal(info.leaves, 2);
+    /* Of a world that is unlike what the agent was told of it: five sweeps are all there are. */
+    agent = make_lasting(0.5f, 1.0f, 5);
+    config = default_of(agent);
+    (void)compact(agent, &config, &info);
+    assert_int_equal(info.leaves, 2);
+}
+
+/* What rounding takes for a tie costs something, once it is evaluated. */
+static void test_no_tie(void **unused) {
+    (void)unused;
+    rlvc_policy_info info;
+    rlvc_agent *agent = make_lasting(0.99997f, 0.99f, 10000);
+    rlvc_policy_config config = default_of(agent);
+    check_as_agent(compact(agent, &config, &info), agent);
+    assert_int_equal(info.leaves, 2);
+    assert_true(info.value_after == info.value_before);
+    agent = make_lasting(1.0f, 0.99f, 10000); /* a tie */
+    config = default_of(agent);
+    (void)compact(agent, &config, &info);
+    assert_int_equal(info.leaves, 1);
+    assert_true(info.value_after == info.value_before);
+}
+
+/* Only what a finished learning step has labelled is in the model; of the rest Q is known. */
+static void test_unlabelled(void **unused) {
+    (void)unused;
+    const unsigned char percept = 7;
+    const rlvc_choice choice = {1, 0};
+    rlvc_policy_info info, more;
+    rlvc_progress progress;
+    rlvc_agent *agent = make(8, 2, 1);
+    const rlvc_policy_config config = default_of(agent);
+    (void)compact(agent, &config, &info);
+    assert_true(info.value_after == info.value_before);
+    assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+    assert_int_equal(rlvc_observe(agent, choice, -1e6f, &percept, RLVC_GOES_ON), RLVC_OK);
+    (void)compact(agent, &config, &more);
+    assert_true(more.value_before == info.value_before);
+    assert_int_equal(more.leaves, info.leaves);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+    assert_int_equal(progress.done, 0);
+    (void)compact(agent, &config, &more);
+    assert_true(more.value_before > info.value_before - 0.1f);
+    assert_int_equal(more.leaves, info.leaves);
 }
 
 /* What was never tried is not as good, however wide the tolerance. */
@@ -135,7 +231,7 @@ static void test_untried(void **unused) {
     rlvc_policy_info info;
     rlvc_agent *agent = make(8, 64, 1);
     rlvc_policy_config config = default_of(agent);
-    config.tolerance = RLVC_REWARD_MAX;
+    config.tolerance = 1.0f;
     assert_true(act(compact(agent, &config, &info), 0) < 2);
     agent = make(8, 64, 0);
     config = default_of(agent);
@@ -200,7 +296,7 @@ static void test_defaults(void **unused) {
     rlvc_policy_config config;
     rlvc_agent *agent = make(8, 2, 1);
     assert_int_equal(rlvc_policy_default(agent, &config), RLVC_OK);
-    assert_true(config.tolerance == 0.02f);
+    assert_true(config.tolerance == 0.0f);
     assert_int_equal(config.percepts, 1001);
     assert_int_equal(config.entries, 65536);
     assert_true(config.effort == (uint64_t)1 << 26);
@@ -230,7 +326,7 @@ static void test_refusals(void **unused) {
     assert_int_equal(rlvc_policy_size(agent, NULL, &bytes), RLVC_E_NULL);
     assert_int_equal(rlvc_policy_size(agent, &config, NULL), RLVC_E_NULL);
     const rlvc_policy_config wrongs[] = {{-1.0f, 8, 64, 0, 1},
-                                         {2e12f, 8, 64, 0, 1},
+                                         {1.1f, 8, 64, 0, 1},
                                          {0.0f, 0, 64, 0, 1},
                                          {0.0f, 8, 1, 0, 1},
                                          {0.0f, 8, 64, 1, 1},
@@ -408,17 +504,13 @@ static void test_reentering(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fewer_leaves),
-        cmocka_unit_test(test_tolerance),
-        cmocka_unit_test(test_untried),
-        cmocka_unit_test(test_as_agent),
-        cmocka_unit_test(test_nothing_smaller),
-        cmocka_unit_test(test_many_percepts),
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_each_callback_failing),
-        cmocka_unit_test(test_print),
-        cmocka_unit_test(test_export),
+        cmocka_unit_test(test_fewer_leaves),  cmocka_unit_test(test_tolerance),
+        cmocka_unit_test(test_losses_add_up), cmocka_unit_test(test_no_tie),
+        cmocka_unit_test(test_unlabelled),    cmocka_unit_test(test_untried),
+        cmocka_unit_test(test_as_agent),      cmocka_unit_test(test_nothing_smaller),
+        cmocka_unit_test(test_many_percepts), cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_each_callback_failing),
+        cmocka_unit_test(test_print),         cmocka_unit_test(test_export),
         cmocka_unit_test(test_reentering),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

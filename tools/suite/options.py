@@ -10,6 +10,7 @@ TASKS = {
     "binary": "Binary Gridworld: Sutton's maze of 46 cells, 11 distractors and 6 more",
     "lake": "FrozenLake-v1, not slippery, 6 distractors",
     "slippery": "FrozenLake-v1, slippery, 6 distractors",
+    "large": "FrozenLake-v1, 8 x 8 cells, slippery, 6 distractors",
     "taxi": "Taxi-v3, 6 distractors",
     "cartpole": "CartPole-v1",
     "noise": "CartPole-v1, 4 more components that are noise",

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The table, in Markdown: a row for each task and learner, what the columns mean, and each bar."""
 
+import dataclasses
 import math
 import statistics
 
@@ -95,9 +96,11 @@ def _about(task):
     )
 
 
-def _bars(task, records):
+def _bars(task, records, peers):
     for bar in task.bars:
         figure = bar.figure(records)
+        if of_peer := [record for record in peers if record["learner"] == bar.peer]:
+            bar = dataclasses.replace(bar, limit=bar.figure(of_peer))
         yield (
             f"- {'met' if bar.met(figure) else 'MISSED'}: {task.name}: {bar.text}: "
             f"{_number(figure, ',.5g')} ({'at least' if bar.least else 'at most'} {bar.limit:,.5g})"
@@ -142,7 +145,7 @@ def render(records, tasks, learners):
             if found:
                 rows += _rows(TASKS[name](), learner, found)
                 if learner == "rlvc":
-                    bars += _bars(TASKS[name](), found)
+                    bars += _bars(TASKS[name](), found, [r for r in records if r["task"] == name])
     return "\n".join(
         [
             *_aligned(rows),

@@ -40,12 +40,16 @@ class Look:
 
 @dataclasses.dataclass(frozen=True)
 class Bar:
-    """A limit for a figure over all runs of a task."""
+    """A limit for a figure over all runs of a task.
+
+    ``peer``: a learner; if it has runs, too, the limit is its own figure.
+    """
 
     text: str
     figure: Callable[[list], float]
     limit: float
     least: bool = False  # whether the limit is a minimum; otherwise it is a maximum
+    peer: str = ""
 
     def met(self, figure):
         return figure >= self.limit if self.least else figure <= self.limit
@@ -182,6 +186,18 @@ def slippery():
 def lake():
     make = functools.partial(gymnasium.make, "FrozenLake-v1", is_slippery=False)
     return _text("lake", make, [worlds.binary(np.arange(16), 4)], 1000, 1.0, 6)
+
+
+def large():
+    make = functools.partial(gymnasium.make, "FrozenLake-v1", map_name="8x8", is_slippery=True)
+    task = _text("large", make, [worlds.binary(np.arange(64), 6)], 30000, 0, 64)
+    kept = share(lambda record: record["kept"] >= record["value"] - _CLOSE)
+    about = "asked: no loss by compaction, and the return of R-max"
+    return dataclasses.replace(task, about=about, bars=(
+        Bar("share of runs whose compact policy has the return of the tree", kept, 1.0, True),
+        Bar("return, median, beside that of R-max", median("value"), 0, True, "rmax"),
+        CLEAN,
+    ))  # fmt: skip
 
 
 def taxi():
@@ -357,7 +373,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, taxi, cartpole, noise, sensors, car, acrobot, pendulum, grid, far, nothing,
-    wander, changing,
+    binary, lake, slippery, large, taxi, cartpole, noise, sensors, car, acrobot, pendulum, grid, far,
+    nothing, wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}

@@ -5,7 +5,8 @@
  * The agent's tree separates situations that are worth different amounts. A policy only has to
  * separate situations that need different actions. So this searches for the smallest tree, over the
  * features of the agent's tree, that at each percept in the agent's ring takes the agent's action
- * or one that is as good. See rlvc/min_tree.h for how.
+ * or one that is as good, and then evaluates it: if it is worth less than the agent's policy, the
+ * search is repeated with fewer actions allowed. See rlvc/min_tree.h for how.
  *
  * A policy lies at the beginning of a block of the caller's and is independent of the agent from
  * then on; its domain's ctx must stay. It is used by one thread at a time. Every function here
@@ -25,11 +26,10 @@ typedef struct rlvc_policy rlvc_policy;
 
 /* Options of the search. Start from rlvc_policy_default. */
 typedef struct rlvc_policy_config {
-    /* At a percept an action is as good as the agent's if it was tried and its Q in the percept's
-     * class is no more than this below that of the agent's, in units of return, [0,
-     * RLVC_REWARD_MAX]. The policy is then worth at most tolerance / (1 - discount) less than the
-     * agent's, by the agent's Q. 0: just the agent's action. Default twice the tolerance of the
-     * agent's config, which its solver cannot tell from nothing. */
+    /* What the policy may lose: no class is worth less than under the agent's policy by more than
+     * this share of the spread of Q, its largest less its smallest, [0, 1]. 0: it loses nothing.
+     * That is checked in the model of the interactions that the agent has learnt from (section
+     * 4.1); see value_after. Default 0. */
     float tolerance;
 
     /* Distinct ones that there is room for, [1, RLVC_MIN_TREE_ROWS_MAX]. Two are distinct if one
@@ -77,13 +77,22 @@ typedef struct rlvc_policy_info {
     uint8_t as_agent;
 
     uint8_t reserved[2];
+
+    /* What the agent's policy is worth, and at least this policy: the means of V, evaluated in that
+     * model, over the interactions behind the classes. An action's Q stands for what follows it
+     * where the ring holds none. At percepts of one class the policy may take several actions; the
+     * worst of them counts. So they are equal, but for rounding, unless `tolerance` allows a loss.
+     */
+    float value_before;
+    float value_after;
 } rlvc_policy_info;
 
 /* Makes a policy of an agent, which is unchanged; best between learning steps, as while one is
  * under way the actions and values are those of the last solution. A step by RLVC_CRITERION_RETURNS
  * leaves the ring without percepts: then after more interactions. O(P (F + depth)) for the P
  * percepts of the ring and F features, with as many calls of exhibits(); then that of
- * rlvc_min_tree.
+ * rlvc_min_tree, twice at most without a tolerance, 8 times with one, and sweeps over the model's
+ * transitions.
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_policy_size or more
  * @param info optional
  * @return RLVC_OK; RLVC_E_RANGE: a field of the config; RLVC_E_MEMORY; RLVC_E_CALLBACK. On error

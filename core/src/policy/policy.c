@@ -6,9 +6,14 @@
  * making needs:
  *
  *     number, origin   the tree's distinct features: which one each split tests, and a split of
- * each row, allowed     the ring's distinct percepts, by these features scratch          first an
- * index of the rows, to find duplicates; then the block of rlvc_min_tree, with its tree; or else
- * the leaf that each node of the agent's tree begins in the collapsed one */
+ * each tested           which one each split of the small tree tests row, allowed     the ring's
+ * distinct percepts, by these features worth            the class-level model, to know what a
+ * policy is worth scratch          first an index of the rows, to find duplicates; then the block
+ * of rlvc_min_tree, with its tree; or else the leaf that each node of the agent's tree begins in
+ * the collapsed one
+ *
+ * A tree is made for what may be taken at each percept, and what it takes is evaluated. If that
+ * costs more than was allowed, less is allowed, down to the agent's own actions. */
 #include "rlvc/float_rules.h"
 
 #include "policy.h"
@@ -18,10 +23,15 @@
 #include "../export/collapse.h"
 #include "../export/export_tree.h"
 #include "../export/print.h"
-#include "../agent/state.h"
+#include "worth.h"
 #include <string.h>
 
 #define PERCEPTS_DEFAULT 16384u
+
+/* What an action may cost in the next step is at first what a policy may cost in all. A mistake at
+ * every step adds up, so that it becomes a fourth of that, and so on; then just ties, and then
+ * nothing but the agent's own action. */
+enum { ATTEMPTS_WITH_LOSS = 6, ATTEMPT_TIES = ATTEMPTS_WITH_LOSS, ATTEMPT_OWN };
 
 typedef struct maker {
     const rlvc_agent *agent;
@@ -35,8 +45,10 @@ typedef struct maker {
     uint32_t words;      /* of a row */
     uint32_t *number;    /* [splits] */
     uint32_t *origin;    /* [features] */
-    uint64_t *row;       /* [percepts + 1][words] the last is that of a percept looked at */
-    uint64_t *allowed;   /* [percepts] */
+    uint32_t *tested;    /* [splits] */
+    rlvc_worth worth;
+    uint64_t *row;     /* [percepts + 1][words] the last is that of a percept looked at */
+    uint64_t *allowed; /* [percepts] */
     void *scratch;
 } maker;
 
@@ -74,8 +86,10 @@ static void carve(maker *m, rlvc_arena *arena) {
     m->kept = arena->used;
     m->number = rlvc_arena_carve(arena, tree->classes, sizeof *m->number);
     m->origin = rlvc_arena_carve(arena, m->task.features, sizeof *m->origin);
+    m->tested = rlvc_arena_carve(arena, tree->classes, sizeof *m->tested);
     m->row = rlvc_arena_carve(arena, percepts + 1u, m->words * (uint32_t)sizeof *m->row);
     m->allowed = rlvc_arena_carve(arena, percepts, sizeof *m->allowed);
+    rlvc_worth_carve(&m->worth, arena, m->agent);
     at_least(&m->scratch_bytes, ((uint64_t)m->index_mask + 1u) * sizeof(uint32_t));
     at_least(&m->scratch_bytes, 2u * (uint64_t)tree->classes * sizeof(uint32_t));
     m->scratch = rlvc_arena_carve_bytes(arena, m->scratch_bytes);
@@ -95,7 +109,7 @@ static rlvc_status lay_out(maker *m, const rlvc_agent *agent, const rlvc_policy_
     m->task.reserved = config->reserved;
     m->task.effort = config->effort;
     rlvc_status status = rlvc_min_tree_size(&m->task, &search_bytes);
-    if (!(config->tolerance >= 0.0f && config->tolerance <= RLVC_REWARD_MAX))
+    if (!(config->tolerance >= 0.0f && config->tolerance <= 1.0f))
         status = RLVC_E_RANGE;
     if (status != RLVC_OK)
         return status;
@@ -134,30 +148,14 @@ static rlvc_status detect(const maker *m, const void *percept, uint64_t *row) {
     return RLVC_OK;
 }
 
-/* The class of a percept that exhibits these. */
-static uint32_t class_of(const maker *m, const uint64_t *row) {
-    const rlvc_tree *tree = &m->agent->tree;
+/* The class of a percept that exhibits these, in a tree whose splits test features number[]. */
+static uint32_t class_of(const rlvc_tree *tree, const uint32_t *number, const uint64_t *row) {
     uint32_t node = 0;
     while (!rlvc_tree_is_leaf(tree, node)) {
-        const uint32_t f = m->number[rlvc_tree_split_of(tree, node)];
+        const uint32_t f = number[rlvc_tree_split_of(tree, node)];
         node = tree->node[node] + (uint32_t)(row[f / 64u] >> f % 64u & 1u);
     }
     return rlvc_tree_class(tree, node);
-}
-
-/* The actions that are as good as the agent's in a class, that one included. */
-static uint64_t allowed_in(const maker *m, uint32_t class_id) {
-    const rlvc_values *values = &m->agent->values;
-    const size_t first = rlvc_values_pair(values, class_id, 0);
-    const uint32_t best = values->policy[class_id];
-    uint64_t actions = (uint64_t)1 << best;
-    for (uint32_t a = 0; a < values->actions; a++) {
-        const int near = values->tried[first + best] > 0 && values->tried[first + a] > 0 &&
-                         values->q[first + a] >= values->q[first + best] - m->config->tolerance;
-        if (near && m->config->tolerance > 0.0f)
-            actions |= (uint64_t)1 << a;
-    }
-    return actions;
 }
 
 /* Where the row behind the last one stands in the index, or would. */
@@ -193,8 +191,7 @@ static rlvc_status gather(maker *m, int *fit) {
             continue;
         if (m->task.rows == m->config->percepts)
             return RLVC_OK;
-        m->allowed[m->task.rows++] = allowed_in(m, class_of(m, row));
-        index[at] = m->task.rows;
+        index[at] = ++m->task.rows;
     }
     *fit = m->task.rows > 0;
     return RLVC_OK;
@@ -221,6 +218,8 @@ static void take_fewest(maker *m, const rlvc_min_tree_result *found) {
         split(m, found->split[j].leaf,
               rlvc_tree_feature(&m->agent->tree, m->origin[found->split[j].feature]));
     memcpy(m->policy->action, found->action, found->leaves);
+    for (uint32_t j = 0; j + 1u < found->leaves; j++)
+        m->tested[j] = found->split[j].feature;
 }
 
 /* The collapsed tree: in pre-order a node's leaf is known before those of its children. */
@@ -241,37 +240,81 @@ static void take_collapsed(maker *m, const rlvc_compact *collapsed) {
     } while (node != 0);
 }
 
+/* ------------------------------------------------------------------ what it is worth */
+
+/* What may be taken at each row; `loss` < 0: just the agent's action. */
+static void allow(maker *m, float loss) {
+    for (uint32_t i = 0; i < m->task.rows; i++) {
+        const uint64_t *row = m->row + (size_t)i * m->words;
+        const uint32_t class_id = class_of(&m->agent->tree, m->number, row);
+        m->allowed[i] = loss < 0.0f ? (uint64_t)1 << m->agent->values.policy[class_id]
+                                    : rlvc_worth_allowed(&m->worth, class_id, loss);
+    }
+}
+
+/* Does the policy keep the agent's value, but for `loss`? */
+static int is_kept(maker *m, float loss) {
+    const rlvc_policy *policy = m->policy;
+    rlvc_worth_take_none(&m->worth);
+    for (uint32_t i = 0; i < m->task.rows; i++) {
+        const uint64_t *row = m->row + (size_t)i * m->words;
+        rlvc_worth_take(&m->worth, class_of(&m->agent->tree, m->number, row),
+                        policy->action[class_of(&policy->tree, m->tested, row)]);
+    }
+    return rlvc_worth_is_kept(&m->worth, loss);
+}
+
+/* Seeks a tree with fewer leaves than the collapsed one has, for the rows.
+ * @return 1 if it is the policy's. */
+static int seek(maker *m, rlvc_policy_info *info) {
+    const float loss = m->config->tolerance * m->worth.spread;
+    float share = loss;
+    uint32_t attempt = loss > 0.0f ? 0 : ATTEMPT_TIES;
+    m->task.row = m->row;
+    m->task.allowed = m->allowed;
+    for (; attempt <= ATTEMPT_OWN; attempt++) {
+        rlvc_min_tree_result found;
+        allow(m, attempt == ATTEMPT_OWN ? -1.0f : attempt == ATTEMPT_TIES ? 0.0f : share);
+        memset(&found, 0, sizeof found);
+        (void)rlvc_min_tree(&m->task, m->scratch, (size_t)m->scratch_bytes, &found);
+        info->exact = found.exact;
+        if (found.leaves < info->collapsed)
+            take_fewest(m, &found);
+        RLVC_UNPOISON(m->scratch, (size_t)m->scratch_bytes);
+        if (found.leaves >= info->collapsed)
+            return 0; /* the less is allowed, the more leaves there are */
+        if (is_kept(m, loss))
+            return 1;
+        share *= 0.25f;
+    }
+    return 0;
+}
+
 /* Makes the smaller of the two trees the policy's. */
 static rlvc_status choose(maker *m, rlvc_policy_info *info) {
     const rlvc_agent *agent = m->agent;
     rlvc_compact collapsed = {
         {NULL, NULL, RLVC_OK}, &agent->tree, agent->values.policy, NULL, agent->config.actions, 0};
-    rlvc_min_tree_result found;
     int fit = 0;
-    memset(&found, 0, sizeof found);
     rlvc_compact_count(&collapsed);
     if (agent->config.actions <= RLVC_MIN_TREE_ACTIONS_MAX) {
         const rlvc_status status = gather(m, &fit);
         if (status != RLVC_OK)
             return status;
     }
-    if (fit) {
-        m->task.row = m->row;
-        m->task.allowed = m->allowed;
-        (void)rlvc_min_tree(&m->task, m->scratch, (size_t)m->scratch_bytes, &found);
-        RLVC_UNPOISON(m->scratch, (size_t)m->scratch_bytes);
-    }
+    rlvc_worth_begin(&m->worth);
     info->classes = agent->tree.classes;
     info->collapsed = collapsed.mixed + 1u;
     info->percepts = fit ? m->task.rows : 0;
     info->features = m->task.features;
     info->bytes = (uint32_t)m->kept;
-    info->exact = found.exact;
-    info->as_agent = !fit || found.leaves >= info->collapsed;
+    info->value_before = rlvc_worth_mean(&m->worth, m->worth.model.value);
+    info->value_after = info->value_before;
+    info->as_agent = !fit || !seek(m, info);
     if (info->as_agent)
         take_collapsed(m, &collapsed);
     else
-        take_fewest(m, &found);
+        info->value_after = rlvc_worth_mean(&m->worth, m->worth.least);
     info->leaves = m->policy->tree.classes;
     return RLVC_OK;
 }
@@ -284,7 +327,6 @@ rlvc_status rlvc_policy_default(const rlvc_agent *agent, rlvc_policy_config *con
     if (agent->busy)
         return RLVC_E_REENTERED;
     memset(config, 0, sizeof *config);
-    config->tolerance = 2.0f * agent->config.tolerance;
     config->percepts =
         agent->replay.slots < PERCEPTS_DEFAULT ? agent->replay.slots : PERCEPTS_DEFAULT;
     config->entries = 65536u;

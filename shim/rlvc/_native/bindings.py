@@ -398,6 +398,7 @@ class PolicyInfo(c.Structure):
         ("classes", c.c_uint32), ("collapsed", c.c_uint32), ("leaves", c.c_uint32),
         ("percepts", c.c_uint32), ("features", c.c_uint32), ("bytes", c.c_uint32),
         ("exact", c.c_uint8), ("as_agent", c.c_uint8), ("reserved", c.c_uint8 * 2),
+        ("value_before", c.c_float), ("value_after", c.c_float),
     ]
 
 

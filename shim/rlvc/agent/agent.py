@@ -437,14 +437,15 @@ class Agent(Queries):
         entries: int | None = None,
         effort: int | None = None,
     ) -> Policy:
-        """Make the smallest policy that acts as well as the agent on all percepts in the replay buffer.
+        """Make the smallest policy that is worth as much as the agent's.
+
+        It takes the agent's action, or one that is as good, on all percepts in the replay buffer.
 
         Parameters
         ----------
         tolerance : float or None
-            An action is as good as the agent's if it was tried and its Q is at most this much
-            lower, in units of return. 0: only the agent's action. None: twice the tolerance of the
-            config, the accuracy of the solver.
+            What may be lost: of no class does the value fall by more than this share of the spread
+            of Q, its largest less its smallest, [0, 1]. None: 0, nothing.
         percepts : int or None
             Maximum number of percepts that differ in the features of the tree. None: 16384, or the
             capacity of the replay buffer if that is less.
@@ -457,7 +458,7 @@ class Agent(Queries):
         Returns
         -------
         Policy
-            Its ``info`` has the number of leaves before and after, and whether that is the minimum.
+            Its ``info`` has the leaves and the value before and after, and whether that is the minimum.
 
         Raises
         ------

@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import json
+import math
 import zlib
 from collections.abc import Sequence
 from pathlib import Path
@@ -73,7 +74,9 @@ class PlannedPolicy(Policy):
         )
         inner = {node[:2] for node in self.nodes if node[1] != _native.PLANNER_LEAF}
         leaves = len(self.nodes) // 2 + 1
-        info = Compaction(leaves, leaves, leaves, 0, len(inner), size, False, True)
+        info = Compaction(
+            leaves, leaves, leaves, 0, len(inner), size, False, True, math.nan, math.nan
+        )
         self._settle(domain, guard, native, block, policy.value, info)
 
     def save(self, file: str | Path, names: Sequence[str] = ()) -> None:

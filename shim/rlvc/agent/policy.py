@@ -46,6 +46,11 @@ class Compaction:
     as_agent : bool
         Whether the policy acts as the agent on every possible percept, because it is the collapsed
         tree. If not, it may act otherwise on percepts that were not in the replay buffer.
+    value_before : float
+        Mean value of the agent's policy, in the model of the interactions that it has learnt from;
+        NaN for a planner.
+    value_after : float
+        The same of this policy, or less where it takes several actions in one class.
     """
 
     classes: int
@@ -56,6 +61,8 @@ class Compaction:
     bytes: int
     exact: bool
     as_agent: bool
+    value_before: float
+    value_after: float
 
 
 class Policy(Handle):

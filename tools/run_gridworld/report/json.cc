@@ -67,6 +67,8 @@ void add_run(Json &json, const gridworld_maze &maze, const RunResult &run) {
     json["distractors_used"] = run.distractors_used;
     json["policy_leaves"] = run.compaction.info.leaves;
     json["policy_exact"] = run.compaction.info.exact == 1;
+    json["value_before"] = run.compaction.info.value_before;
+    json["value_after"] = run.compaction.info.value_after;
     json["policy_optimal_cells"] = run.compaction.optimal;
     json["policy_near_optimal_cells"] = run.compaction.near_optimal;
     json["fewest_leaves"] = run.fewest.leaves;

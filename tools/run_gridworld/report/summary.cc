@@ -85,7 +85,9 @@ std::string describe_fewest(const Fewest &fewest) {
 
 std::string describe_policy(const RunResult &run) {
     return leaves_of(run.compaction.info.leaves) +
-           format(", optimal in %u of %u cells; ", run.compaction.optimal, run.cells) +
+           format(", optimal in %u of %u cells, value %.4g (before compaction %.4g); ",
+                  run.compaction.optimal, run.cells, double{run.compaction.info.value_after},
+                  double{run.compaction.info.value_before}) +
            describe_fewest(run.fewest);
 }
 
