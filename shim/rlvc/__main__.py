@@ -16,14 +16,6 @@ from .errors import Error, LogWarning
 _CLOSED_PIPE = 141  # exit status: 128 and the number of the signal
 
 
-def _told(error: Exception) -> str:
-    """Give an error in one line."""
-    text = " ".join(str(error).split())
-    if isinstance(error, Error | ImportError | OSError):
-        return text
-    return f"the environment raised {type(error).__name__}: {text}"
-
-
 def _warned(
     message: Warning | str,
     category: type[Warning],
@@ -72,10 +64,8 @@ def main(arguments: list[str] | None = None) -> int:
         ):  # what is left in the buffer must not be written at the end
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return _CLOSED_PIPE
-    except Exception as error:
-        if not isinstance(error, Error | ImportError | OSError) and not hasattr(error, "run"):
-            raise
-        print(f"rlvc: {_told(error)}", file=sys.stderr)
+    except (Error, ImportError, OSError) as error:
+        print(f"rlvc: {' '.join(str(error).split())}", file=sys.stderr)
         return 1
 
 

@@ -137,7 +137,7 @@ MODULE = """
 """
 FAULTS = {
     "os.kill(os.getpid(), signal.SIGINT)": (130, "rlvc: interrupted: the result is incomplete\n"),
-    "raise ZeroDivisionError('here')": (1, "rlvc: the environment raised ZeroDivisionError: here\n"),
+    "raise ZeroDivisionError('here')": (1, "rlvc: interaction 449, episode 89: step(0) of the environment raised ZeroDivisionError: here\n"),
     "return 0, None, False, False, {}": (
         1, "rlvc: interaction 449, episode 89: reward: None is not a number: give a float\n"),
 }  # fmt: skip
@@ -235,3 +235,25 @@ def test_logs_are_shown_and_converted(tmp_path, capsys):
     log.write_text(episodes, encoding="utf-8")
     assert command.main(["learn", "--log", str(log)]) == 0
     assert "5 interactions are left out" in capsys.readouterr().err
+
+
+def test_roles_and_the_past(tmp_path, capsys):
+    (tmp_path / "log.csv").write_text("druck,ventil,lohn,ende\n" + "1,0,0,0\n5,1,1,0\n1,1,1,1\n" * 40, encoding="utf-8")
+    log, run = str(tmp_path / "log.csv"), str(tmp_path / "run")
+    assert command.main(["log", log]) == 1
+    assert "roles={'action': ..., 'reward': ...}" in capsys.readouterr().err
+    roles = ["--roles", "action=ventil,reward=lohn,terminated=ende"]
+    assert command.main(["log", log, *roles]) == 0
+    assert "action: ventil" in capsys.readouterr().out
+    learn = ["learn", "--log", log, *roles, "--history", "2", "--discount", "0.5", "--save", run]
+    assert command.main(learn) == 0
+    names = rlvc.load(run).encoder.names
+    assert names[:2] == ["now.druck", "1 ago.druck"]
+    assert names[2].startswith("action 1 ago")
+    pytest.importorskip("gymnasium")
+    lake = ["FrozenLake-v1", "--env-arg", "is_slippery=False", "--history", "2"]
+    played = ["--episodes", "5"]
+    assert command.main(["learn", *lake, "--interactions", "500", "--quiet", "--save", run, *played]) == 0
+    assert command.main(["evaluate", run, *lake, *played]) == 0
+    assert command.main(["evaluate", run, *lake[:-2], *played]) == 1
+    assert "an observation without 'now'" in capsys.readouterr().err

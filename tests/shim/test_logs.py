@@ -273,8 +273,8 @@ def test_other_files(tmp_path):
     with pytest.raises(errors.LogError, match="no column action"):
         rlvc.learn_from(file)
     other = tmp_path / "log.xyz"
-    other.write_text("1,2,3", encoding="utf-8")
-    with pytest.raises(errors.LogError, match="neither CSV"):
+    other.write_bytes(b"\x01\x00\x02\x00" * 9)
+    with pytest.raises(errors.LogError, match="neither text"):
         rlvc.learn_from(other)
     with pytest.raises(errors.LogError, match="cannot be read"):
         rlvc.learn_from(tmp_path / "none.csv")

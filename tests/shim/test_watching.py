@@ -90,6 +90,54 @@ def test_a_hidden_state_is_remembered():
     assert "2 ago" in run.text()
 
 
+def recorded(env, count, seed=1):
+    """Random interactions: what was observed, done and rewarded, by names."""
+    random = np.random.default_rng(seed)
+    log = {name: [] for name in ("obs", "action", "reward", "next_obs", "terminated", "truncated")}
+    observation, _ = env.reset(seed=seed)
+    for _ in range(count):
+        action = int(random.integers(3))
+        following, reward, terminated, truncated, _ = env.step(action)
+        for name, value in zip(log, (observation, action, reward, following, terminated, truncated), strict=True):
+            log[name].append(value)
+        observation = env.reset()[0] if terminated or truncated else following
+    return log
+
+
+def test_a_hidden_state_in_a_log():
+    """The log of an environment, with its past, is the log of the environment with History."""
+    plain, wrapped = (recorded(env, 6000) for env in (Corridor(), rlvc.History(Corridor(), 3)))
+    log = rlvc.logs.with_history(rlvc.logs.read(plain), 3)
+    for side, seen in ((log.before, wrapped["obs"]), (log.after, wrapped["next_obs"])):
+        for name in seen[0]:
+            part = side[name]["obs"] if isinstance(side[name], dict) else side[name]
+            assert part.ravel().tolist() == [int(row[name]) for row in seen], name
+    space = spaces.Discrete(4)
+    run = rlvc.learn_from({k: np.array(v) for k, v in plain.items()}, history=3, space=space, discount=0.95)
+    assert run.evaluate(rlvc.History(Corridor(), 3), 50).mean == 4.0
+    blind = rlvc.learn_from({k: np.array(v) for k, v in plain.items()}, space=space, discount=0.95)
+    assert blind.evaluate(Corridor(), 50).mean < 3
+    with pytest.raises(rlvc.errors.ConfigError, match="history"):
+        rlvc.learn_from(plain, history=65)
+
+
+def test_the_past_of_logs_of_all_forms(tmp_path):
+    """Columns, words and real actions have a past, and a saved run still knows it."""
+    rows = [("a", 0.5, "go", 0.0, 0), ("b", 1.5, "stay", 1.0, 0), ("a", 2.5, "go", 0.0, 1)] * 40
+    named = [dict(zip(("place", "x", "action", "reward", "done"), row, strict=True)) for row in rows]
+    run = rlvc.learn_from(named, history=2, discount=0.5)
+    past = {"now": {"place": "b", "x": 1.5}, "1 ago": {"place": "a", "x": 0.5}, "action 1 ago": "go"}
+    assert run.predict(past) in ("go", "stay")
+    assert run.predict({**past, "action 1 ago": ""}) in ("go", "stay")
+    run.save(tmp_path / "run")
+    assert rlvc.load(tmp_path / "run").predict(past) == run.predict(past)
+    real = {"obs": np.arange(120)[:, None] % 7, "action": np.arange(120) % 5 / 4, "reward": np.ones(120),
+            "done": np.arange(120) % 6 == 5}  # fmt: skip
+    log = rlvc.logs.with_history(rlvc.logs.read(real, bins=5), 3)
+    assert log.before["action 1 ago"][:8].tolist() == [0, 0, 0.25, 0.5, 0.75, 1, 0, 0.25]
+    assert log.before["2 ago"][:8, 0].tolist() == [0, 0, 0, 1, 2, 3, 6, 6]
+
+
 class Aim(gymnasium.Env):
     """One-step episodes: the action is to be near the observation."""
 

@@ -27,6 +27,7 @@ from ..logs import learn_from
 from ..words import explain
 from .parser import config_fields
 
+_LOG_OPTIONS = ("columns", "header", "roles", "bins")
 INTERRUPTED = 130  # exit status: 128 and the number of the signal
 
 
@@ -63,6 +64,15 @@ def _environment(name: str, given: list[str]) -> Any:
         raise EnvError(f"{name}: cannot be made: {error}") from error
 
 
+def _with_past(env: Any, count: int | None) -> Any:
+    """The environment with its last observations in one."""
+    if count is None:
+        return env
+    from ..envs.history import History
+
+    return History(env, count)
+
+
 def _write(file: str, text: str) -> None:
     if file == "-":
         print(text, end="")
@@ -77,7 +87,7 @@ def learn_command(arguments: argparse.Namespace) -> int:
     env = None
     try:
         if arguments.env is not None:
-            env = _environment(arguments.env, arguments.env_arg)
+            env = _with_past(_environment(arguments.env, arguments.env_arg), arguments.history)
             options: tuple[str, ...] = ("every", "thresholds", "names", "bins", "hold", "method")
             run = learn(
                 env,
@@ -88,7 +98,10 @@ def learn_command(arguments: argparse.Namespace) -> int:
                 **_chosen(arguments, *options),
             )
         else:
-            options = ("columns", "header", "actions", "bins", "thresholds", "names", "steps")
+            options = (
+                *("columns", "header", "roles", "actions", "bins", "thresholds", "names"),
+                *("history", "steps"),
+            )
             run = learn_from(arguments.log, seed=arguments.seed, **_chosen(arguments, *options))
     except Exception as error:
         if isinstance(getattr(error, "run", None), Run):
@@ -151,7 +164,7 @@ def show_command(arguments: argparse.Namespace) -> int:
 
 def evaluate_command(arguments: argparse.Namespace) -> int:
     """Play episodes with a saved run."""
-    env = _environment(arguments.env, arguments.env_arg)
+    env = _with_past(_environment(arguments.env, arguments.env_arg), arguments.history)
     evaluation = load(arguments.file).evaluate(env, arguments.episodes, arguments.seed)
     print(f"return {evaluation}, {evaluation.lengths.mean():.4g} decisions an episode")
     return 0
@@ -221,14 +234,14 @@ def plot_command(arguments: argparse.Namespace) -> int:
 
 def log_command(arguments: argparse.Namespace) -> int:
     """Show how a log is understood."""
-    options = {name: getattr(arguments, name) for name in ("columns", "header", "bins")}
+    options = {name: getattr(arguments, name) for name in _LOG_OPTIONS}
     print(logs.described(arguments.log, **options), end="")
     return 0
 
 
 def convert_command(arguments: argparse.Namespace) -> int:
     """Write a log as NPZ."""
-    log = logs.read(arguments.log, arguments.columns, arguments.header, arguments.bins)
+    log = logs.read(arguments.log, **{name: getattr(arguments, name) for name in _LOG_OPTIONS})
     if log.record_bytes:
         raise ConfigError(
             f"{arguments.log}: has percepts, not observations: read it with its domain"

@@ -68,6 +68,17 @@ def _bins(text: str) -> int | list[int]:
     return numbers[0] if len(numbers) == 1 else numbers
 
 
+def _roles(text: str) -> dict[str, list[str]]:
+    """The columns for roles; a role that is named again has one more."""
+    found: dict[str, list[str]] = {}
+    for part in text.split(","):
+        role, sign, name = part.partition("=")
+        if not sign or not name:
+            raise argparse.ArgumentTypeError(f"{part!r:.80} is not ROLE=COLUMN")
+        found.setdefault(role.strip(), []).append(name.strip())
+    return found
+
+
 def config_fields() -> dict[str, Any]:
     """The fields of the configs that have an option of their own, and how a text becomes a value."""
     kinds: dict[str, Any] = {"int": int, "float": float, "bool": _truth}
@@ -94,7 +105,13 @@ def _add_log_options(add: Any) -> None:
         "--header",
         metavar="A,B,...",
         type=_listed,
-        help="names of the columns of a CSV that has none",
+        help="names of the columns of a log that has none",
+    )
+    add(
+        "--roles",
+        metavar="ROLE=COLUMN,...",
+        type=_roles,
+        help="what columns are where their names do not say it, such as action=valve,done=stop",
     )
 
 
@@ -128,6 +145,12 @@ def _add_learn(commands: Any) -> None:
         help="how many numbers of each element of a Box of actions",
     )
     add("--hold", type=_whole, metavar="N", help="for how many steps an action is taken")
+    add(
+        "--history",
+        type=_whole,
+        metavar="N",
+        help="observe the last N observations, and the actions between them",
+    )
     _add_log_options(add)
     add("--actions", type=_whole, metavar="N", help="number of actions of --log")
     add(
@@ -167,6 +190,7 @@ def _add_of_a_run(commands: Any) -> None:
     add = command("evaluate", "play with a saved run", "Plays episodes without exploring.")
     add("env", metavar="ENV")
     _add_env_options(add)
+    add("--history", type=_whole, metavar="N", help="as in learning")
     add("--episodes", type=_whole, metavar="N", default=100, help="(default: %(default)s)")
     add(
         "--seed",

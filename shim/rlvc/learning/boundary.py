@@ -2,7 +2,8 @@
 """Checks of the values that an environment returns.
 
 numpy's numbers, arrays of one element, and 0 or 1 as a flag are accepted. For other values the
-error says what the environment should return.
+error says what the environment should return. What an environment raises itself is the cause of an
+:class:`~rlvc.errors.EnvError`, which says in which call.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import flag, real
-from ..errors import EnvError, RewardError
+from ..errors import EnvError, Error, RewardError
 
 _OLD = (
     "it has the interface of an old version of Gym: wrap it, for example with Shimmy's "
@@ -57,7 +58,12 @@ def reset(env: Any, **arguments: Any) -> Any:
     observation, dict
         The first observation, and the info.
     """
-    returned = env.reset(**arguments)
+    try:
+        returned = env.reset(**arguments)
+    except Error:
+        raise
+    except Exception as error:
+        raise _raised("reset()", error) from error
     if not isinstance(returned, tuple) or len(returned) != 2 or not isinstance(returned[1], dict):
         raise EnvError(f"reset() returned {returned!r:.80}, expected (observation, info): {_OLD}")
     return returned
@@ -76,7 +82,13 @@ def step(env: Any, action: Any) -> tuple[Any, float, bool, bool, Any]:
     observation, float, bool, bool, dict
         The next observation, the reward, terminated, truncated, and the info.
     """
-    observation, reward, terminated, truncated, info = returned = _five(env.step(action))
+    try:
+        returned = env.step(action)
+    except Error:
+        raise
+    except Exception as error:
+        raise _raised(f"step({action!r:.80})", error) from error
+    observation, reward, terminated, truncated, info = _five(returned)
     if (
         terminated.__class__ is bool
         and truncated.__class__ is bool
@@ -106,7 +118,13 @@ def step_all(env: Any, chosen: npt.NDArray[Any]) -> tuple[Any, Any, Any, Any, An
     observations, float64 [n], bool [n], bool [n], dict
         The next observations, the rewards, terminated, truncated, and the info.
     """
-    observations, rewards, terminated, truncated, info = _five(env.step(chosen))
+    try:
+        returned = env.step(chosen)
+    except Error:
+        raise
+    except Exception as error:
+        raise _raised(f"step({chosen!r:.80})", error) from error
+    observations, rewards, terminated, truncated, info = _five(returned)
 
     def flags(name: str, values: Any) -> npt.NDArray[np.bool_]:
         if isinstance(values, np.ndarray) and values.dtype == np.bool_ and values.shape == (count,):
@@ -130,6 +148,10 @@ def step_all(env: Any, chosen: npt.NDArray[Any]) -> tuple[Any, Any, Any, Any, An
         flags("truncated", truncated),
         info,
     )
+
+
+def _raised(call: str, error: Exception) -> EnvError:
+    return EnvError(f"{call} of the environment raised {type(error).__name__}: {error}")
 
 
 def _five(returned: Any) -> Any:

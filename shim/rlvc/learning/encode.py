@@ -32,7 +32,7 @@ from ..errors import ConfigError, PerceptError, SpaceError
 from ..words import explain
 from .parts import Part, parts_of
 
-__all__ = ["Columns", "Encoder", "Flags", "Numbers", "explain"]
+__all__ = ["Columns", "Encoder", "Flags", "Named", "Number", "Numbers", "Word", "explain"]
 
 
 class Numbers:
@@ -77,19 +77,62 @@ class Columns:
         }
 
 
-def _parts(space: Any) -> list[Part]:
+class Number:
+    """A space of numbers from 0 on, encoded like a Discrete; for logs, without Gymnasium.
+
+    Parameters
+    ----------
+    count : int
+    """
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+
+
+class Word:
+    """A space of words, one bit for each; for logs, without Gymnasium.
+
+    Parameters
+    ----------
+    words : sequence of str
+    """
+
+    def __init__(self, words: Sequence[str]) -> None:
+        self.words = [str(word) for word in words]
+
+
+class Named:
+    """A space of dicts of other spaces, encoded like a Dict; for logs, without Gymnasium.
+
+    Parameters
+    ----------
+    spaces : dict
+        For each name a space.
+    """
+
+    def __init__(self, spaces: Mapping[str, Any]) -> None:
+        self.spaces = dict(spaces)
+
+
+def _parts(space: Any, path: tuple[Any, ...] = ()) -> list[Part]:
     if isinstance(space, Numbers):
-        return [Part("reals", (), space.shape)]
+        return [Part("reals", path, space.shape)]
     if isinstance(space, Flags):
-        return [Part("flags", (), space.shape)]
+        return [Part("flags", path, space.shape)]
+    if isinstance(space, Number):
+        return [Part("number", path, (), (0,), (space.count,))]
+    if isinstance(space, Word):
+        return [Part("word", path, (), counts=(len(space.words),), words=tuple(space.words))]
     if isinstance(space, Columns):
-        return [
-            Part("reals", (name,), ())
-            if words is None
-            else Part("word", (name,), (), counts=(len(words),), words=tuple(words))
+        named = {
+            name: Numbers(()) if words is None else Word(words)
             for name, words in space.columns.items()
-        ]
-    return parts_of(space, ())
+        }
+        return _parts(Named(named), path)
+    if isinstance(space, Named):
+        inner = space.spaces.items()
+        return [part for name, sub in inner for part in _parts(sub, (*path, name))]
+    return parts_of(space, path)
 
 
 class Encoder:
@@ -97,7 +140,7 @@ class Encoder:
 
     Parameters
     ----------
-    space : gymnasium.Space, Numbers, Flags or Columns
+    space : gymnasium.Space, or one of the spaces of logs in this module
         Discrete, MultiDiscrete, MultiBinary, Box, or a Dict or Tuple of these.
     thresholds : int
         Maximum number of cutpoints for each component of real numbers; 0: no limit.

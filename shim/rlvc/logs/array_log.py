@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Logs of arrays: in memory, in an NPZ file, in HDF5, or in the buffer of another library."""
+"""Logs of arrays: in memory, of episodes, or in HDF5."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ def from_arrays(
     columns: Sequence[str] | None = None,
     bins: int | None = None,
     known: Actions | None = None,
+    roles: Mapping[str, Any] | None = None,
 ) -> Log:
     """Make a log of arrays with an element for each interaction.
 
@@ -42,19 +43,24 @@ def from_arrays(
         Of actions that are real numbers: into how many they are divided.
     known : Actions or None
         The actions; None: those of the log.
+    roles : mapping or None
+        Columns for roles, as for :func:`rlvc.learn_from`.
     """
-    values = {name: _array(value, name, where) for name, value in _flat(arrays)}
-    roles = roles_of(values, where, columns)
-    count = len(values[roles.actions[0]])
+    notes: list[str] = []
+    values, faults = _arrays(_in_a_row(arrays, where, notes), where)
+    found = roles_of([*values, *faults], where, columns, roles)
+    for name in (*found.one.values(), *found.actions, *found.seen, *found.after):
+        if name in faults:
+            raise faults[name]
+    count = len(values[found.actions[0]])
     if count == 0:
         raise LogError(f"{where}: actions: there is no interaction")
-    notes: list[str] = []
-    if not roles.after and all(len(values[name]) > count for name in roles.seen):
-        roles_after = _next_of_episodes(values, roles, count, where)
+    if not found.after and all(len(values[name]) > count for name in found.seen):
+        roles_after = _next_of_episodes(values, found, count, where)
         values |= roles_after
         notes.append("an observation after the last interaction of each episode")
-    used = {*roles.one.values(), *roles.actions, *roles.seen, *roles.after}
-    used |= {f"next_{name}" for name in roles.seen if f"next_{name}" in values}
+    used = {*found.one.values(), *found.actions, *found.seen, *found.after}
+    used |= {f"next_{name}" for name in found.seen if f"next_{name}" in values}
     for name in used:
         if len(values[name]) != count:
             raise LogError(f"{where}: {name}: {list(values[name].shape)} for {count} actions")
@@ -62,13 +68,67 @@ def from_arrays(
     other = [f"{name} {list(values[name].shape)}" for name in values if name not in kept]
     if other:
         notes.append(f"not one for each interaction, so ignored: {', '.join(other)}")
-    return from_table(Table(kept, lambda i: f"index {i}", where, notes), columns, bins, known)
+    return from_table(
+        Table(kept, lambda i: f"index {i}", where, notes), columns, bins, known, roles
+    )
+
+
+def _in_a_row(arrays: Mapping[Any, Any], where: str, notes: list[str]) -> dict[str, Any]:
+    """The arrays, those of several episodes each joined into one, with the episodes' numbers."""
+    flat = dict(_flat(arrays))
+    parts = {name: found for name, value in flat.items() if (found := _episodes_of(value))}
+    counts = {
+        len(value) for name, value in flat.items() if name not in parts and _has_length(value)
+    }
+    if not parts or {len(found) for found in parts.values()} & counts:
+        return flat
+    sizes = {name: np.array([len(part) for part in found]) for name, found in parts.items()}
+    lengths = min(sizes.values(), key=lambda each: int(each.sum()))
+    if lengths.sum() - len(lengths) in counts:
+        lengths = lengths - 1  # observations alone, with the last one of each episode
+    for name, found in parts.items():
+        try:
+            flat[name] = np.concatenate(found)
+        except ValueError as error:
+            raise LogError(f"{where}: {name}: {error}") from None
+    notes.append(f"{len(lengths)} episodes, each in an array of its own")
+    return {"episode": np.repeat(np.arange(len(lengths)), lengths), **flat}
+
+
+def _has_length(value: Any) -> bool:
+    return isinstance(value, list) or (isinstance(value, np.ndarray) and value.ndim > 0)
+
+
+def _episodes_of(value: Any) -> list[Array] | None:
+    """The arrays of several lengths in a list or an array of objects; None: it is something else."""
+    listed = value.dtype == object if isinstance(value, np.ndarray) else isinstance(value, list)
+    if not listed or not all(isinstance(part, list | tuple | np.ndarray) for part in value):
+        return None
+    try:
+        found = [np.asarray(part) for part in value]
+    except ValueError:
+        return None
+    lengths = {len(part) if part.ndim else -1 for part in found}
+    return found if len(lengths) > 1 and -1 not in lengths else None
+
+
+def _arrays(arrays: Mapping[Any, Any], where: str) -> tuple[dict[str, Array], dict[str, LogError]]:
+    """What is an array, and why others are none: no matter, if nobody needs them."""
+    values, faults = {}, {}
+    for name, value in _flat(arrays):
+        try:
+            values[name] = _array(value, name, where)
+        except LogError as error:
+            faults[name] = error
+    return values, faults
 
 
 def _flat(arrays: Mapping[Any, Any], start: str = "") -> Iterator[tuple[str, Any]]:
     """The arrays of dicts in dicts, by names such as observations.x."""
     for key, value in arrays.items():
         name = f"{start}{key}"
+        if name.startswith("__"):
+            continue  # of MATLAB
         if isinstance(value, Mapping):
             yield from _flat(value, f"{name}.")
         else:
@@ -85,7 +145,8 @@ def _array(values: Any, name: str, where: str) -> Array:
     except (TypeError, ValueError, OverflowError) as error:
         raise LogError(f"{where}: {name}: not an array: {error}") from None
     if array.ndim == 0:
-        raise LogError(f"{where}: {name}: not an array but {values!r:.80}")
+        packed = ": write it unpacked" if isinstance(values, str | bytes) else ""
+        raise LogError(f"{where}: {name}: not an array but {values!r:.80}{packed}")
     if array.dtype.kind not in "bfiuUO" or (array.ndim > 1 and array.shape[1:].count(0)):
         raise LogError(
             f"{where}: {name}: {array.dtype}{list(array.shape)}: no numbers and no words"
@@ -153,24 +214,6 @@ def _of_all(name: str, episode: dict[str, Any]) -> Any:
     ):
         return np.append(np.zeros(max(count - 1, 0), np.bool_), bool(values))
     return values
-
-
-def from_npz(path: str | Path, **arguments: Any) -> Log:
-    """Read a log from an NPZ file with the arrays of :func:`from_arrays`.
-
-    Parameters
-    ----------
-    path : str or Path
-    **arguments
-        Of :func:`from_arrays`.
-    """
-    try:
-        with open_file(path) as file, np.load(file, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-    except Exception as error:  # of zipfile, of what it unpacks with, of numpy's parser
-        more = ": save arrays of numbers, not of objects" if "pickle" in str(error) else ""
-        raise LogError(f"{path}: cannot be read as NPZ: {error}{more}") from error
-    return from_arrays(arrays, str(path), **arguments)
 
 
 def from_hdf5(path: str | Path, **arguments: Any) -> Log:

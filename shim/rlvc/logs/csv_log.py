@@ -6,30 +6,22 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import LogError
-from ..files import read
+from .content import text_of
 from .log import Log
+from .roles import NAMES
 from .table import Array, Table, from_table
+from .values import column_of, is_value
 
 _DELIMITERS = ",;\t|"
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE | re.ASCII)
 _COMMA = re.compile(r"[-+]?\d+,\d+(e[-+]?\d+)?", re.IGNORECASE | re.ASCII)
-_FLAGS = {"true": 1.0, "false": 0.0, "yes": 1.0, "no": 0.0, "t": 1.0, "f": 0.0, "y": 1.0, "n": 0.0}
-_MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "?"}
-_INFINITE = {
-    "inf": np.inf,
-    "+inf": np.inf,
-    "-inf": -np.inf,
-    "infinity": np.inf,
-    "-infinity": -np.inf,
-}
-_ENCODINGS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+_NEEDED = {*NAMES["action"].split(), *NAMES["reward"].split()}
 
 
 def from_csv(
@@ -37,35 +29,34 @@ def from_csv(
     columns: Sequence[str] | None = None,
     header: Sequence[str] | None = None,
     bins: int | None = None,
+    roles: Mapping[str, Any] | None = None,
 ) -> Log:
     """Read a log from a CSV file.
 
     Parameters
     ----------
     path : str or Path
-        The delimiter is a comma, semicolon, tab or bar; with the latter three a number may have a
-        decimal comma. Lines that begin with # are comments. :mod:`rlvc.logs.roles` lists the names of
-        columns. Without columns for the next observation, it is in the next line; a line without an
-        action holds the last one of an episode. An interaction that did not terminate and has no
-        observation after it is left out.
+        The delimiter is a comma, semicolon, tab or bar, or blanks; with the latter a number may have
+        a decimal comma. Lines that begin with # or % are comments. :mod:`rlvc.logs.roles` lists the
+        names of columns. Without columns for the next observation, it is in the next line; a line
+        without an action holds the last one of an episode. An interaction that did not terminate and has
+        no observation after it is left out.
     columns : sequence of str or None
         Columns of the observation. None: those that are named so, else all without another meaning.
     header : sequence of str or None
         The names of the columns, if the file has none.
     bins : int or None
         Of actions that are real numbers: into how many they are divided.
+    roles : mapping or None
+        Columns for roles, as for :func:`rlvc.learn_from`.
     """
-    return from_table(table_of(path, header), columns, bins)
+    return from_table(table_of(path, header), columns, bins, given=roles)
 
 
 def table_of(path: str | Path, header: Sequence[str] | None = None) -> Table:
     """Read the table of a text file."""
-    try:
-        text = _decoded(read(path))
-    except (OSError, UnicodeError) as error:
-        raise LogError(f"{path}: cannot be read as CSV: {error}") from error
     notes: list[str] = []
-    lines, comment = _lines(text, path)
+    lines, comment = _lines(text_of(path, notes), path)
     delimiter = _delimiter(lines)
     rows = _fields(lines, delimiter, path)
     names, rows, head = _named(rows, header, comment, delimiter, path)
@@ -74,6 +65,7 @@ def table_of(path: str | Path, header: Sequence[str] | None = None) -> Table:
     rows = [row for row in rows if row[1] != names]
     if again:
         notes.append(f"the names of the columns stand again in line {again[0]}: another log begins")
+    names, rows = _without_blanks(names, rows)
     for line, row in rows:
         if len(row) != len(names):
             raise LogError(f"{path}: line {line}: {len(row)} fields, not {len(names)}")
@@ -81,24 +73,55 @@ def table_of(path: str | Path, header: Sequence[str] | None = None) -> Table:
     if delimiter != ",":
         name = {" ": "blanks", "\t": "tab"}.get(delimiter, delimiter)
         notes.append(f"delimiter: {name}")
-    comma = delimiter != "," and any(_COMMA.fullmatch(text) for _, row in rows for text in row)
-    if comma:
-        notes.append("decimal comma")
     numbers = [line for line, _ in rows]
+
+    def place(i: int) -> str:
+        return f"line {numbers[i]}"
+
     parsed: dict[str, Array] = {}
     for i, name in enumerate(names):
-        texts = [row[i] for _, row in rows]
-        if comma:
-            texts = [text.replace(",", ".") if _COMMA.fullmatch(text) else text for text in texts]
-        parsed[name] = column_of(name, texts, lambda i: f"line {numbers[i]}", str(path))
+        texts = _with_points([row[i] for _, row in rows], name, delimiter, place, notes, path)
+        parsed[name] = column_of(name, texts, place, str(path), notes)
     kept = parts if again else None
-    return Table(parsed, lambda i: f"line {numbers[i]}", str(path), notes, head, kept)
+    return Table(parsed, place, str(path), notes, head, kept)
 
 
-def _decoded(content: bytes) -> str:
-    encoding = next((name for mark, name in _ENCODINGS if content.startswith(mark)), "utf-8")
-    text = content.decode(encoding)
-    return text.removesuffix("\x1a")  # an old end of file
+def _without_blanks(
+    names: list[str], rows: list[tuple[int, list[str]]]
+) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Leave out a last field that is blank in each row, after a delimiter at the end of the line."""
+    if rows and all(
+        len(row) == len(names) + (names[-1] != "") and row[-1] == "" for _, row in rows
+    ):
+        named = names if names[-1] else names[:-1]
+        return named, [(line, row[:-1]) for line, row in rows]
+    return names, rows
+
+
+def _with_points(
+    texts: list[str],
+    name: str,
+    delimiter: str,
+    place: Any,
+    notes: list[str],
+    path: str | Path,
+) -> list[str]:
+    """Numbers with a decimal comma as such with a point."""
+    found = [i for i, text in enumerate(texts) if _COMMA.fullmatch(text)]
+    if not found:
+        return texts
+    others = [t for i, t in enumerate(texts) if not _COMMA.fullmatch(t) and not is_value(t)]
+    if others:
+        return texts
+    grouped = all(re.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}", texts[i]) for i in found)
+    if delimiter == "," and grouped:
+        raise LogError(
+            f"{path}: {place(found[0])}: {name}: {texts[found[0]]} may be a thousand or a fraction: "
+            "write numbers without commas"
+        )
+    if "decimal comma" not in notes:
+        notes.append("decimal comma")
+    return [text.replace(",", ".") if _COMMA.fullmatch(text) else text for text in texts]
 
 
 def _lines(text: str, path: str | Path) -> tuple[list[tuple[int, str]], str]:
@@ -109,8 +132,10 @@ def _lines(text: str, path: str | Path) -> tuple[list[tuple[int, str]], str]:
         bad = next((c for c in line if ord(c) < 32 and c != "\t"), None)
         if bad is not None:
             raise LogError(f"{path}: line {number}: a control character {bad!r}: not a text file")
-        if line.lstrip().startswith("#"):
-            comment = comment if lines else line.lstrip().lstrip("#").strip()
+        if line.lstrip().startswith(("#", "%")):
+            comment = comment if lines else line.lstrip().lstrip("#%").strip()
+        elif re.fullmatch(r"sep=.", line.strip(), re.IGNORECASE) and not lines:
+            continue  # Excel's; the delimiter shows itself
         elif line.strip():
             lines.append((number, line))
     return lines, comment
@@ -183,8 +208,10 @@ def _named(
         line, names = rows[0] if rows else (1, [])
         head = f"line {line}"
         rows = rows[1:]
-        if names and all(_is_value(name) for name in names):
-            beside = [name.strip() for name in comment.split(delimiter)]
+        beside = comment.split() if delimiter == " " else comment.split(delimiter)
+        beside = [name.strip() for name in beside]
+        told = len(beside) == len(names) and len(_NEEDED & {name.lower() for name in beside}) > 1
+        if names and (told or all(is_value(name) for name in names)):
             if len(beside) != len(names):
                 raise LogError(
                     f"{path}: line {line}: numbers where the names of the columns should be: pass "
@@ -194,68 +221,3 @@ def _named(
     if len(set(names)) != len(names):
         raise LogError(f"{path}: {head}: two columns have the same name")
     return names, rows, head
-
-
-def _is_value(text: str) -> bool:
-    return bool(_NUMBER.fullmatch(text)) or text.lower() in _MISSING
-
-
-def column_of(name: str, texts: list[str], place: Any, where: str) -> Array:
-    """Turn the texts of a column into numbers, arrays or words.
-
-    Parameters
-    ----------
-    name : str
-    texts : list of str
-    place : callable
-        Says where a row is.
-    where : str
-        The file, for errors.
-
-    Returns
-    -------
-    ndarray, [n] or [n, k] of float64, or [n] of words
-    """
-    values = np.full(len(texts), np.nan)
-    words: list[int] = []
-    for i, text in enumerate(texts):
-        lowered = text.lower()
-        if _NUMBER.fullmatch(text):
-            values[i] = float(text)
-        elif lowered in _FLAGS:
-            values[i] = _FLAGS[lowered]
-            words.append(i) if len(text) == 1 else None
-        elif lowered in _INFINITE:
-            values[i] = _INFINITE[lowered]
-        elif lowered not in _MISSING:
-            words.append(i)
-    if not words:
-        return values
-    if texts[words[0]][0] in "([":
-        return _arrays(name, texts, place, where)
-    plain = [i for i, text in enumerate(texts) if _NUMBER.fullmatch(text)]
-    if plain:
-        i = words[0]
-        raise LogError(f"{where}: {place(i)}: {name}: {texts[i]!r:.40} is not a number")
-    if all(len(texts[i]) == 1 and texts[i].lower() in _FLAGS for i in words):
-        return values
-    blank = {i for i, text in enumerate(texts) if text.lower() in _MISSING}
-    return np.array([None if i in blank else text for i, text in enumerate(texts)], object)
-
-
-def _arrays(name: str, texts: list[str], place: Any, where: str) -> Array:
-    """Arrays written in brackets: (0, 1) or [1.0 0.5]."""
-    rows: list[list[float]] = []
-    for i, text in enumerate(texts):
-        inner = [part for part in re.split(r"[\s,;()\[\]]+", text) if part]
-        if not all(_NUMBER.fullmatch(part) for part in inner):
-            if text.lower() in _MISSING:
-                rows.append([])
-                continue
-            raise LogError(f"{where}: {place(i)}: {name}: {text!r:.40} is no array of numbers")
-        rows.append([float(part) for part in inner])
-    width = max(map(len, rows))
-    for i, row in enumerate(rows):
-        if len(row) not in (0, width):
-            raise LogError(f"{where}: {place(i)}: {name}: {len(row)} numbers, expected {width}")
-    return np.array([row or [np.nan] * width for row in rows])

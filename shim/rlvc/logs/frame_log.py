@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Logs in data frames, Parquet, JSON and JSON Lines."""
+"""Logs in data frames, Parquet and Feather."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..errors import LogError
-from ..files import open_file, read
-from .array_log import from_arrays, from_episodes
+from ..files import open_file
+from .array_log import from_arrays
 from .log import Log
+
+FEATHER = b"ARROW1"
+"""How a Feather file begins."""
 
 
 def from_frame(frame: Any, where: str = "log", **arguments: Any) -> Log:
@@ -29,6 +29,8 @@ def from_frame(frame: Any, where: str = "log", **arguments: Any) -> Log:
     names = [str(name) for name in frame.columns]
     if len(set(names)) != len(names):
         raise LogError(f"{where}: two columns have the same name")
+    if any(frame.index.names):  # episodes and steps are often there
+        frame = frame.reset_index()
     columns = {str(name): _values(frame[name]) for name in frame.columns}
     return from_arrays(columns, where, **arguments)
 
@@ -44,11 +46,12 @@ def _values(series: Any) -> Any:
 
 
 def from_parquet(path: str | Path, **arguments: Any) -> Log:
-    """Read a log from a Parquet file, as those of LeRobot and RLlib.
+    """Read a log from Parquet, as that of LeRobot and RLlib, or from Feather.
 
     Parameters
     ----------
     path : str or Path
+        A file, or a folder of Parquet files.
     **arguments
         Of :func:`rlvc.logs.from_arrays`.
     """
@@ -59,81 +62,14 @@ def from_parquet(path: str | Path, **arguments: Any) -> Log:
             "Parquet files need pandas and pyarrow: pip install 'rlvc[logs]'"
         ) from None
     try:
-        open_file(path).close()  # a regular file
-        frame = pandas.read_parquet(path)
+        if Path(path).is_dir():
+            frame = pandas.read_parquet(path)
+        else:
+            with open_file(path) as file:  # a regular file
+                feather = file.read(6) == FEATHER
+            frame = pandas.read_feather(path) if feather else pandas.read_parquet(path)
     except ImportError:
         raise ImportError("Parquet files need pyarrow: pip install 'rlvc[logs]'") from None
     except Exception as error:  # of pyarrow
         raise LogError(f"{path}: cannot be read as Parquet: {error}") from error
     return from_frame(frame, str(path), **arguments)
-
-
-def from_json(path: str | Path, **arguments: Any) -> Log:
-    """Read a log from a JSON or JSON Lines file.
-
-    Parameters
-    ----------
-    path : str or Path
-        A list of interactions, or a line for each; a dict of lists; or a list of episodes, each a dict
-        of lists, or a line for each.
-    **arguments
-        Of :func:`rlvc.logs.from_arrays`.
-    """
-    try:
-        text = read(path).decode("utf-8-sig")
-    except (OSError, UnicodeError) as error:
-        raise LogError(f"{path}: cannot be read as JSON: {error}") from error
-    try:
-        found = json.loads(text)
-    except RecursionError:
-        raise LogError(f"{path}: cannot be read as JSON: too deep") from None
-    except ValueError:
-        found = _lines(text, path)
-    where = str(path)
-    if isinstance(found, dict):
-        inner = next((found[k] for k in ("episodes", "data", "transitions") if k in found), None)
-        if not isinstance(inner, list):
-            return from_arrays(found, where, **arguments)
-        found = inner
-    if not isinstance(found, list) or not found or not all(isinstance(row, dict) for row in found):
-        raise LogError(f"{path}: is no list of interactions: give each as an object of its columns")
-    if _is_episode(found[0]):
-        return from_episodes(found, where, **arguments)
-    found = [_flattened(row) for row in found]
-    names = list(dict.fromkeys(str(name) for row in found for name in row))
-    columns = {name: _column([row.get(name) for row in found]) for name in names}
-    return from_arrays(columns, where, **arguments)
-
-
-def _lines(text: str, path: str | Path) -> list[Any]:
-    rows = []
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.strip():
-            try:
-                rows.append(json.loads(line))
-            except (RecursionError, ValueError) as error:
-                raise LogError(f"{path}: line {number}: is not JSON: {error}") from None
-    return rows
-
-
-def _is_episode(row: dict[str, Any]) -> bool:
-    """Whether an object is an episode: its rewards are a list."""
-    return any(isinstance(row.get(name), list) for name in ("rewards", "reward", "rew"))
-
-
-def _flattened(row: dict[str, Any]) -> dict[str, Any]:
-    """Objects in an object as columns: state.x."""
-    flat: dict[str, Any] = {}
-    for name, value in row.items():
-        if isinstance(value, dict):
-            flat |= {f"{name}.{inner}": v for inner, v in value.items()}
-        else:
-            flat[name] = value
-    return flat
-
-
-def _column(values: list[Any]) -> Any:
-    """Objects in an array, without joining lists of several lengths."""
-    column = np.empty(len(values), object)
-    column[:] = values
-    return column

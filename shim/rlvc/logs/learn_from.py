@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ from ..learning.encode import Encoder, Numbers
 from ..learning.learn import default_config, domain_of
 from ..learning.run import Record, Run
 from .log import Log
+from .past import with_history
 from .read import read
 
 
@@ -127,6 +129,7 @@ def learn_from(
     *,
     columns: Sequence[str] | None = None,
     header: Sequence[str] | None = None,
+    roles: Mapping[str, Any] | None = None,
     actions: int | None = None,
     bins: int | None = None,
     space: Any = None,
@@ -134,6 +137,7 @@ def learn_from(
     domain: Domain | int | None = None,
     thresholds: int = 15,
     names: Sequence[str] | None = None,
+    history: int = 1,
     steps: int = 1,
     **config: Any,
 ) -> Run:
@@ -149,7 +153,11 @@ def learn_from(
         Columns that form the observation. None: those that are named so, else all without another
         meaning.
     header : sequence of str or None
-        The names of the columns of a CSV that has none.
+        The names of the columns of a file that has none.
+    roles : mapping or None
+        What columns are, where their names do not say it: for ``action``, ``reward``, ``terminated``,
+        ``done``, ``truncated``, ``episode``, ``step``, ``observation`` or ``next_observation`` the name
+        of a column, or a list of names.
     actions : int or None
         Number of actions, from 0 on. None: as the log says.
     bins : int or None
@@ -167,6 +175,9 @@ def learn_from(
         Maximum number of cutpoints for each element of an observation; 0: no limit.
     names : sequence of str or None
         A name for each number of an observation. None: those of the columns.
+    history : int
+        How many observations are seen, with the actions between them, if one does not tell the state;
+        :class:`rlvc.History` does the same in an environment.
     steps : int
         Number of learning steps. The residual criterion needs one. With the criterion of returns,
         step k looks k interactions ahead, and each step uses the whole log.
@@ -201,9 +212,15 @@ def learn_from(
     """
     if isinstance(columns, str):
         columns = [columns]
-    log = read(log, columns, header, bins)
+    log = read(log, columns, header, bins, roles)
     if config.get("criterion") == "returns" and log.exploited is None:
         raise ConfigError("criterion: returns needs a log with exploited")
+    if space is not None and not hasattr(space, "spaces"):
+        log = _alone(log)
+    if history != 1:
+        if encoder is not None:
+            raise ConfigError("history: goes with the encoders of this package: leave encoder out")
+        log, space = with_history(log, history, space), None
     steps = whole("steps", steps, 1, 2**31)
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     known = _counted(log, actions)
@@ -224,6 +241,14 @@ def learn_from(
     else:
         _by_ring(run, log, before, after, steps)
     return run
+
+
+def _alone(log: Log) -> Log:
+    """The one column of a table as the observation itself."""
+    if not isinstance(log.before, dict) or len(log.before) != 1:
+        return log
+    name = next(iter(log.before))
+    return dataclasses.replace(log, before=log.before[name], after=log.after[name])
 
 
 def _by_ring(run: Run, log: Log, before: Any, after: Any, steps: int) -> None:

@@ -95,6 +95,11 @@ def checked(log: Log) -> Log:
     return log
 
 
+def counted(count: int, name: str) -> str:
+    """Spell a number of things: ``2 rows are``."""
+    return f"{count} {name} is" if count == 1 else f"{count} {name}s are"
+
+
 def warn(log: Log, text: str) -> None:
     """Note what is lost, and warn of it."""
     log.notes.append(text)

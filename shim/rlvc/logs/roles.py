@@ -5,18 +5,20 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any
 
-from ..errors import LogError
+from ..errors import ConfigError, LogError
 
 NAMES = {
-    "action": "action actions a act acts control",
-    "reward": "reward rewards r rew rews next.reward",
+    "action": "action actions a act acts control action_taken chosen_action selected_action "
+    "action_id action_index",
+    "reward": "reward rewards r rew rews reward_received immediate_reward",
     "terminated": "terminated terminateds terminal terminals termination terminations "
     "is_terminal terminate",
-    "done": "done dones next.done is_done end ended episode_terminals episode_end",
+    "done": "done dones is_done end ended episode_terminals episode_end finished game_over",
     "truncated": "truncated truncation truncations truncateds timeout timeouts time_limit timelimit "
-    "timelimit.truncated next.truncated truncate",
+    "timelimit.truncated truncate",
     "exploited": "exploited greedy",
     "episode": "episode episodes episode_id episode_ids episode_index episode_number ep eps_id "
     "trajectory trajectory_id traj traj_id trajectory_index",
@@ -26,24 +28,34 @@ NAMES = {
 }
 """For each role the names of its column."""
 
+_LATE = {
+    "reward": "next.reward next_reward reward_next r_next",
+    "done": "next.done next_done done_next",
+    "truncated": "next.truncated",
+    "action": "u command cmd",
+}
+"""Names that count if a role has no other column."""
+
+_GIVEN = (*NAMES, "observation", "next_observation")
 _ROLE = {name: role for role, names in NAMES.items() for name in names.split()}
 _SEEN = "obs observation observations state states s"
-_AFTER = {
-    "obs2": "obs",
-    "s2": "s",
-    "sp": "s",
-    "s_": "s",
-    "s'": "s",
-    "nextstate": "state",
-    "nextobs": "obs",
-}
-_NEXT = re.compile(r"next[_. /](.+)|(.+?)[_. ](?:next|prime|tp1)|(.+)'")
+_AFTER = {"obs2": "obs", "s2": "s", "state2": "state", "sp": "s", "s_": "s", "nextstate": "state",
+          "nextobs": "obs"}  # fmt: skip
+_NEXT = re.compile(r"next[_. /](.+)|(.+?)[_. ](?:next|prime|after)|(.+)'")
+_BEFORE = re.compile(
+    r"(?:prev|previous|last|old|from)_(s|state|obs|observation)|(state|obs)_before"
+)
 _ASIDE = """
     info infos metadata log_prob log_probs logp logprob action_logp value values vf_preds q_values
     return returns return_to_go returns_to_go advantage advantages value_targets unroll_id
     agent_index agent_id env_id task_index task type action_prob action_dist_inputs seed id
-    comment note time timestamp timestamps datetime date version
+    comment note date version weights_seq_no batch_id prev_action prev_actions prev_reward
+    prev_rewards total_reward cumulative_reward episode_return episode_returns episode_length
 """
+_CLOCK = re.compile(
+    r"(header[._/])?(time|timestamps?|unix|unix_?time|epoch_time|date_?time|stamp|clock)"
+    r"([._/](s|ms|us|ns|secs?|nsecs?|utc))?|t_(s|ms|us|ns)"
+)
 
 
 @dataclasses.dataclass
@@ -57,6 +69,8 @@ class Roles:
     actions, seen, after : list of str
         The columns of the action, of the observation, and of the one after it.
     ignored : list of str
+    named : bool
+        Whether the columns of the observation are named so, and not just all others.
     """
 
     one: dict[str, str]
@@ -64,6 +78,7 @@ class Roles:
     seen: list[str]
     after: list[str]
     ignored: list[str]
+    named: bool
 
     def notes(self) -> list[str]:
         """Say what was understood, in lines."""
@@ -78,20 +93,43 @@ class Roles:
         return lines
 
 
-def _plain(name: str) -> str:
-    name = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name.strip())  # nextState
-    return re.sub(r"[\s-]+", "_", name.lower())
+# ------------------------------------------------------------------ names
+
+
+def _spelled(name: str) -> str:
+    """A name in small letters with underscores, without its unit."""
+    name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name.strip().lstrip("%#_/"))  # nextState
+    name = re.sub(r"\(t\)$", "_t", re.sub(r"\(t ?\+ ?1\)$", "_t+1", name))
+    name = re.sub(r"\s*(\[[^\]\d]*\]|\([^)\d]*\))$", "", name)  # a unit
+    name = re.sub(r"[\s-]+", "_", name.lower())
+    return re.sub(r"(?<=.)[./]data$", "", name)  # of ROS
+
+
+def _plains(listed: Sequence[str]) -> list[str]:
+    """The names of all columns, without what all of them begin with, and without their times."""
+    names = [_spelled(name) for name in listed]
+    heads = {re.split(r"[./]", name)[0] for name in names if not _CLOCK.fullmatch(name)}
+    if len(heads) == 1 and len(names) > 2:
+        head = heads.pop()
+        names = [name[len(head) + 1 :] if name.startswith(head) else name for name in names]
+    names = [re.sub(r"^current_(?=(s|state|obs|observation)$)", "", name) for name in names]
+    ahead = re.compile(r"(.+?)_?(t\+1|tp1|t1)")
+    if not any(ahead.fullmatch(name) for name in names):
+        return names
+    names = [re.sub(rf"^{ahead.pattern}$", r"\1_next", name) for name in names]
+    return [re.sub(r"^(.+)_t$", r"\1", name) for name in names]
 
 
 def _before(name: str, names: Collection[str]) -> str | None:
     """Of which column this is the next value; None if it is not so named."""
-    if name in _AFTER:
+    if name in _AFTER and (_AFTER[name] in names or not name[-1].isdigit()):
         return _AFTER[name]
     match = _NEXT.fullmatch(name)
     if match:
         return next(part for part in match.groups() if part is not None)
-    rest = name.removeprefix("new_")
-    return rest if rest != name and (rest in names or _is_seen(rest)) else None
+    rest = re.sub(r"^(new|to)_", "", name)
+    pairs = name.startswith("new_") or f"from_{rest}" in names
+    return rest if rest != name and pairs and (rest in names or _is_seen(rest)) else None
 
 
 def _is_seen(name: str) -> bool:
@@ -104,7 +142,40 @@ def _is_seen(name: str) -> bool:
     )
 
 
-def roles_of(names: Iterable[str], where: str, columns: Sequence[str] | None = None) -> Roles:
+def _is_aside(name: str) -> bool:
+    return (
+        name.split(".")[0].split("/")[0] in _ASIDE.split()
+        or name.startswith("infos")
+        or bool(_CLOCK.fullmatch(name))
+    )
+
+
+def _paired(plains: list[str]) -> list[str]:
+    """Of ``prev_state`` and ``state`` the first is the observation, the second the one after it."""
+    renamed = dict(zip(plains, plains, strict=True))
+    for name in plains:
+        match = _BEFORE.fullmatch(name)
+        if match is None:
+            continue
+        base = match[1] or match[2]
+        if base in renamed and not any(_before(other, plains) == base for other in plains):
+            renamed[base] = f"next_{base}"
+        renamed[name] = base if f"next_{base}" in (renamed.get(base), *plains) else name
+        if f"to_{base}" in renamed:
+            renamed |= {name: base, f"to_{base}": f"next_{base}"}
+    return [renamed[name] for name in plains]
+
+
+# ------------------------------------------------------------------ roles
+
+
+def roles_of(
+    names: Iterable[str],
+    where: str,
+    columns: Sequence[str] | None = None,
+    given: Mapping[str, Any] | None = None,
+    clocks: Collection[str] = (),
+) -> Roles:
     """Assign a role to each column.
 
     Parameters
@@ -114,6 +185,10 @@ def roles_of(names: Iterable[str], where: str, columns: Sequence[str] | None = N
         The log, for errors.
     columns : sequence of str or None
         The columns of the observation; None: those that are named so, else all without a role.
+    given : mapping or None
+        Columns for roles, by the caller.
+    clocks : collection of str
+        Columns that are no observation unless they are named so.
 
     Returns
     -------
@@ -125,43 +200,94 @@ def roles_of(names: Iterable[str], where: str, columns: Sequence[str] | None = N
         There is no column for actions, rewards or observations, or two for one.
     """
     listed = list(names)
-    plains = [_plain(name) for name in listed]
-    wanted = list(columns or ())
+    chosen = _checked(given, listed, where)
+    if columns is not None and "observation" in chosen:
+        raise ConfigError("roles: columns= names the observation already")
+    wanted = list(chosen.pop("observation", ()) if columns is None else columns)
+    after = chosen.pop("next_observation", [])
     for name in wanted:
         if name not in listed:
             raise LogError(f"{where}: no column {name} (present: {', '.join(listed) or 'none'})")
-    one: dict[str, str] = {}
-    actions, rest, after, ignored = [], [], [], []
-    for name in listed:
-        plain = _plain(name)
-        role = _ROLE.get(plain)
-        if name in wanted:
-            rest.append(name)
-        elif role == "action" or re.fullmatch(r"(action|act|a)[._\[]?\d+\]?", plain):
-            actions.append(name)
-        elif role is not None and role not in one:
-            one[role] = name
-        elif role is not None:
-            _refuse_two(role, one[role], name, where)
-            ignored.append(name)
-        elif _before(plain, plains) is not None:
-            after.append(name)
-        elif plain.split(".")[0].split("/")[0] in _ASIDE.split() or plain.startswith("infos"):
+    plains = dict(zip(listed, _paired(_plains(listed)), strict=True))
+    actions = chosen.pop("action", [])
+    one = {role: found[0] for role, found in chosen.items()}
+    free = [n for n in listed if n not in (*wanted, *after, *actions, *one.values())]
+    taken, more = _by_name(free, plains, set(chosen) | ({"action"} if actions else set()), where)
+    one |= {role: found[0] for role, found in taken.items() if role != "action"}
+    actions = actions or taken.get("action", [])
+    ignored = [n for found in more for n in found]
+    used = {*actions, *one.values(), *ignored}
+    rest, next_ones = [], []
+    for name in (n for n in free if n not in used):
+        if _before(plains[name], plains.values()) is not None:
+            next_ones.append(name)
+        elif _is_aside(plains[name]):
             ignored.append(name)
         else:
             rest.append(name)
-    named = [name for name in rest if _is_seen(_plain(name))] if columns is None else wanted
-    ignored += [name for name in rest if named and name not in named]
-    seen = named or rest
+    named = wanted or [name for name in rest if _is_seen(plains[name])]
+    seen = named or [name for name in rest if name not in clocks] or rest
+    ignored += [name for name in rest if name not in seen]
     _need(actions, one, seen, listed, where)
-    return Roles(one, actions, seen, _matched(after, seen, ignored), ignored)
+    if after and len(after) != len(seen):
+        raise LogError(f"{where}: roles: {len(after)} next observations for {', '.join(seen)}")
+    after = after or _matched(next_ones, seen, plains, ignored)
+    return Roles(one, actions, seen, after, ignored, bool(named))
 
 
-def _refuse_two(role: str, first: str, second: str, where: str) -> None:
+def _checked(
+    given: Mapping[str, Any] | None, listed: list[str], where: str
+) -> dict[str, list[str]]:
+    """The roles by the caller: for each a list of columns that are there."""
+    chosen: dict[str, list[str]] = {}
+    for role, value in (given or {}).items():
+        if role not in _GIVEN:
+            raise ConfigError(f"roles: {role!r:.80} is not one of {', '.join(_GIVEN)}")
+        chosen[role] = [value] if isinstance(value, str) else [str(name) for name in value]
+        for name in chosen[role]:
+            if name not in listed:
+                raise LogError(
+                    f"{where}: roles: no column {name} (present: {', '.join(listed) or 'none'})"
+                )
+    return chosen
+
+
+def _by_name(
+    names: list[str], plains: dict[str, str], known: set[str], where: str
+) -> tuple[dict[str, list[str]], list[list[str]]]:
+    """The columns of each role, by their names; and those of a role that has another column."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        role = _ROLE.get(plains[name])
+        if re.fullmatch(r"(action|act|a)[._\[]?\d+\]?", plains[name]):
+            role = "action"
+        if role is not None:
+            found.setdefault(role, []).append(name)
+    for role, late in _LATE.items():
+        more = [name for name in names if plains[name] in late.split()]
+        if role not in found and role not in known and more:
+            found[role] = more[:1]
+    if {"s", "a", "r"} <= set(plains.values()) and not {"done", "terminated"} & set(found):
+        ends = [name for name in names if plains[name] == "d"]
+        found |= {"done": ends} if ends else {}
+    if "action" not in found and "action" not in known:  # action_left, action_right
+        split = [name for name in names if re.fullmatch(r"act(ion)?[._/].+", plains[name])]
+        found |= {"action": split} if len(split) > 1 else {}
+    more_than_one = []
+    for role, several in found.items():
+        if role != "action" and len(several) > 1:
+            _refuse_two(role, several, where)
+        if role != "action":
+            more_than_one.append(several if role in known else several[1:])
+    return {role: several for role, several in found.items() if role not in known}, more_than_one
+
+
+def _refuse_two(role: str, several: list[str], where: str) -> None:
     """Two columns may say when, but not twice what was rewarded."""
     if role not in ("step", "episode"):
         raise LogError(
-            f"{where}: {first} and {second} are both names of {role}: rename or remove one of them"
+            f"{where}: {several[0]} and {several[1]} are both names of {role}: say which it is by "
+            f"roles={{'{role}': ...}}"
         )
 
 
@@ -169,19 +295,33 @@ def _need(
     actions: list[str], one: dict[str, str], seen: list[str], listed: list[str], where: str
 ) -> None:
     present = f"(present: {', '.join(listed) or 'none'})"
-    if not actions:
-        raise LogError(f"{where}: no column action {present}: name it so")
-    if "reward" not in one:
-        raise LogError(f"{where}: no column reward {present}: name it so")
+    missing = ([] if actions else ["action"]) + ([] if "reward" in one else ["reward"])
+    if missing:
+        said = ", ".join(f"'{role}': ..." for role in missing)
+        raise LogError(
+            f"{where}: no column {' and no '.join(missing)} {present}: name it so, or say which it is "
+            f"by roles={{{said}}}"
+        )
     if not seen:
         raise LogError(f"{where}: no column for the observation {present}: name them by columns=")
 
 
-def _matched(after: list[str], seen: list[str], ignored: list[str]) -> list[str]:
+def _matched(
+    after: list[str], seen: list[str], plains: dict[str, str], ignored: list[str]
+) -> list[str]:
     """Put the next observation's columns in the order of the observation's; none if one is missing."""
-    plains = [_plain(name) for name in seen]
-    of = {_before(_plain(name), plains): name for name in after}
-    found = [of[plain] for plain in plains if plain in of]
+    names = plains.values()
+    of = {_before(plains[name], names): name for name in after}
+    found = [of[plains[name]] for name in seen if plains[name] in of]
+    if 0 < len(found) < len(seen):
+        heads = [re.split(r"[./]", plains[name])[0] for name in seen]
+        with_next = {head for head, name in zip(heads, seen, strict=True) if plains[name] in of}
+        without = [name for head, name in zip(heads, seen, strict=True) if plains[name] not in of]
+        if all(plains[name] in _SEEN.split() for name in without) and not with_next & {
+            plains[name] for name in without
+        }:  # obs/x with next_obs/x, beside states of the simulator
+            ignored += without
+            seen[:] = [name for name in seen if name not in without]
     if len(found) < len(seen):
         if len(seen) == len(after) == 1:
             return after

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,11 +16,14 @@ from ..learning.actions import Actions
 from ..learning.encode import Columns, Flags, Numbers
 from ..learning.interact import ends_of
 from .actions import understood
-from .log import Log, checked, warn, warn_of_collapse
+from .log import Log, checked, counted, warn, warn_of_collapse
 from .roles import Roles, roles_of
 
 Array = npt.NDArray[Any]
 _WORDS_MAX = 64  # different words of a column
+_CLOCK_ROWS = 20  # so many that grow are hardly chance
+_LEAK_CHANGES, _LEAK_SHARE = 10, 0.8  # where no column tells episodes apart, their ends differ
+_LEAK_ROWS, _LEAK_COLUMNS = 4096, 64  # that are looked at
 
 
 @dataclasses.dataclass
@@ -67,6 +70,7 @@ def from_table(
     columns: Sequence[str] | None = None,
     bins: Any = None,
     known: Actions | None = None,
+    given: Mapping[str, Any] | None = None,
 ) -> Log:
     """Make a log of a table.
 
@@ -79,17 +83,27 @@ def from_table(
         Of actions that are real numbers: into how many they are divided.
     known : Actions or None
         The actions; None: those of the log.
+    given : mapping or None
+        Columns for roles, by the caller.
 
     Returns
     -------
     Log
     """
     head = f"{table.where}: {table.head}" if table.head else table.where
-    roles = roles_of(table.columns, head, columns)
+    clocks = _clocks(table)
+    roles = roles_of(table.columns, head, columns, given, clocks)
+    left_out = [name for name in clocks if name in roles.ignored]
+    if left_out and not roles.named:
+        table.notes.append(
+            f"{', '.join(left_out)}: grows from row to row, so it is a clock: columns= would take it"
+        )
     table = _in_order(table, roles)
     if not len(next(iter(table.columns.values()))):
         raise LogError(f"{table.where}: there is no interaction")
     rows = _rows(table, roles)
+    if columns is None and "observation" not in (given or {}):
+        _refuse_leaks(table, roles, rows)
     usable = _usable(table, roles.seen)
     following = bool(roles.after)
     if following:
@@ -111,8 +125,7 @@ def from_table(
     space, before, after = _observations(table, roles, chosen, following)
     actions, meaning = understood(table, roles.actions, chosen, bins, known)
     rewards = _numbers(table, roles.one["reward"], chosen)
-    with np.errstate(over="ignore"):  # checked() refuses what is out of range
-        rewards = rewards.astype(np.float32)
+    rewards = rewards.astype(np.float32)
     exploited = None
     if "exploited" in roles.one:
         exploited = _flags(table, roles.one["exploited"])[chosen]
@@ -125,19 +138,55 @@ def from_table(
     return checked(log)
 
 
+def _clocks(table: Table) -> list[str]:
+    """The columns of numbers that grow from row to row: a time, or the number of a row."""
+    return [
+        name
+        for name, values in table.columns.items()
+        if values.ndim == 1
+        and values.dtype.kind in "fiu"
+        and len(values) >= _CLOCK_ROWS
+        and (values[1:] > values[:-1]).all()
+    ]
+
+
+def _refuse_leaks(table: Table, roles: Roles, rows: _Rows) -> None:
+    """Refuse a column that is, row by row, what another one is in the next row: the future."""
+    numbers = {
+        name: table.columns[name][:_LEAK_ROWS]
+        for name in roles.seen
+        if table.columns[name].ndim == 1 and table.columns[name].dtype.kind in "fiu"
+    }
+    if not 2 <= len(numbers) <= _LEAK_COLUMNS:
+        return
+    for name, values in numbers.items():
+        changed = np.flatnonzero(rows.same[: len(values) - 1] & (values[1:] != values[:-1]))
+        if len(changed) < _LEAK_CHANGES:
+            continue
+        for other, ahead in numbers.items():
+            if other == name:
+                continue
+            if (ahead[changed] == values[changed + 1]).mean() > _LEAK_SHARE:
+                raise LogError(
+                    f"{table.where}: {other} is what {name} is in the next row: rename it to "
+                    f"next_{name}, or say what is observed by columns="
+                )
+
+
 def _tell(log: Log, table: Table, rows: _Rows, usable: Array, kept: Array) -> None:
     """Say which rows were dropped, and why."""
     blank = np.flatnonzero(~usable)
     if len(blank):
         warn(
             log,
-            f"{len(blank)} rows without an observation are left out, first {table.place(blank[0])}",
+            f"{counted(len(blank), 'row')} without an observation left out, first "
+            f"{table.place(blank[0])}",
         )
     lost = np.flatnonzero(rows.acted & usable & ~kept)
     if len(lost):
         text = (
-            f"{len(lost)} interactions are left out, as the observation after them is not in the log, "
-            f"first {table.place(lost[0])}: a row without an action after each episode, or columns "
+            f"{counted(len(lost), 'interaction')} left out, as what was observed next is not in the "
+            f"log, first {table.place(lost[0])}: a row without an action after each episode, or columns "
             "next_..., would give it"
         )
         if len(lost) == 1 and lost[0] >= len(kept) - 2:
@@ -162,8 +211,8 @@ def _tell_of_ends(log: Log) -> None:
     if breaks:
         warn(
             log,
-            f"{breaks} episodes break off, and no column says that they terminated: taken as "
-            "truncated; a column terminated would tell",
+            f"{counted(breaks, 'episode')} broken off, and no column says whether they terminated: "
+            "taken as truncated; a column terminated would tell",
         )
     else:
         log.notes.append("no episode ends: taken as one that goes on")
@@ -221,9 +270,11 @@ def _rows(table: Table, roles: Roles) -> _Rows:
     elif not {"terminated", "truncated", "first", "last", "episode"} & set(one) and not roles.after:
         raise LogError(
             f"{table.where}: {table.head + ': ' if table.head else ''}no column terminated (present: "
-            f"{', '.join(table.columns)}): name it so, or terminal, done or episode; 0 everywhere if "
-            "nothing ends"
+            f"{', '.join(table.columns)}): name it so, or done or episode, or say which it is by "
+            "roles={'terminated': ...}; 0 everywhere if nothing ends"
         )
+    if roles.after and not {"terminated", "done", "truncated", "last"} & set(one):
+        terminated = _without_next(table, roles, acted)
     same = np.ones(count, np.bool_)
     if "episode" in one:
         episode = table.columns[one["episode"]]
@@ -244,6 +295,16 @@ def _rows(table: Table, roles: Roles) -> _Rows:
     # After an end the next row is of another episode; a row without an action is its last observation.
     same &= ~terminated & ~(truncated & np.append(acted[1:], True))
     return _Rows(acted, terminated, truncated, same)
+
+
+def _without_next(table: Table, roles: Roles, acted: Array) -> npt.NDArray[np.bool_]:
+    """Where nothing says how an episode ends, None or a blank as the next observation does."""
+    over = acted & _usable(table, roles.seen) & ~_usable(table, roles.after)
+    if over.any():
+        table.notes.append(
+            f"{counted(int(over.sum()), 'interaction')} without a next observation: taken as terminated"
+        )
+    return over
 
 
 def _last(
@@ -272,6 +333,8 @@ def _flags(table: Table, name: str) -> npt.NDArray[np.bool_]:
     values = table.columns[name]
     if values.ndim == 2 and values.shape[1] == 1:
         values = values[:, 0]
+    if values.ndim == 1 and values.dtype.kind in "OU":
+        return _word_flags(table, name, values)
     if values.ndim != 1 or values.dtype.kind not in "bfiu":
         raise LogError(
             f"{table.where}: {name}: {values.dtype}{list(values.shape)} are no flags 0 or 1"
@@ -280,6 +343,18 @@ def _flags(table: Table, name: str) -> npt.NDArray[np.bool_]:
     if len(bad):
         raise table.wrong(bad[0], name, f"{values[bad[0]]} is neither 0 nor 1")
     return np.asarray(values == 1)
+
+
+def _word_flags(table: Table, name: str, values: Array) -> npt.NDArray[np.bool_]:
+    """A word where it holds, and a blank where it does not."""
+    blank = _missing(values)
+    words = sorted({str(value) for value in values[~blank]})
+    if len(words) != 1 or not blank.any():
+        raise LogError(
+            f"{table.where}: {name}: words ({', '.join(words[:4])}) are no flags: write 1 where it "
+            "holds, else 0"
+        )
+    return ~blank
 
 
 def _numbers(table: Table, name: str, rows: Array) -> Array:
@@ -291,6 +366,11 @@ def _numbers(table: Table, name: str, rows: Array) -> Array:
     bad = rows[~np.isfinite(values[rows].astype(np.float64))]
     if len(bad):
         raise table.wrong(bad[0], name, f"{values[bad[0]]} is not a finite number")
+    large = rows[np.abs(values[rows].astype(np.float64)) > _native.REWARD_MAX]
+    if len(large):
+        raise table.wrong(
+            large[0], name, f"{values[large[0]]} is not in [-1e12, 1e12]: scale the rewards"
+        )
     return values[rows]
 
 
