@@ -20,7 +20,6 @@ import rlvc.report
 from rlvc import __main__ as command
 from rlvc import _native, errors
 from rlvc.learning.planning import default_config
-from rlvc.learning.run import _warning
 
 F32 = np.float32
 
@@ -483,14 +482,6 @@ def test_a_run_says_why_it_learnt_nothing(env, interactions, says):
     assert says in run.warning
     assert run.text().splitlines()[-1] == run.warning
     assert rlvc.report.make(run)["warning"] == run.warning
-
-
-def test_a_model_that_predicts_nothing(learnt):
-    bad = dataclasses.replace(learnt.statistics, verdict="no_model", score=10.0, deviation=2.0)
-    assert "does not predict" in _warning(bad, [5.0, 10.0])
-    assert "does not predict" in _warning(bad, [])
-    assert "does not predict" in _warning(bad, [float("nan")])
-    assert _warning(bad, [1.0, 10.0]) == ""  # all that were tried of late are good
 
 
 def test_one_class_is_said_to_be_one():

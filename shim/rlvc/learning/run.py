@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import math
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -31,7 +30,6 @@ from .explanation import Explanation, Seen
 if TYPE_CHECKING:
     import gymnasium
 
-_CLEARLY = 4  # standard deviations above the worst return: hardly by chance
 _VERDICTS = {
     "learnt": "",
     "no_episode": "nothing was learnt: no episode ended",
@@ -40,14 +38,10 @@ _VERDICTS = {
 }
 
 
-def _warning(statistics: PlannerStatistics, returns: list[float]) -> str:
+def _warning(statistics: PlannerStatistics) -> str:
     """Why a planner has learnt nothing; empty if it has learnt something."""
     if statistics.episodes > 0 and statistics.fits == 0:
         return "nothing was learnt: too few interactions for a model of the world"
-    # If all policies of late are good, there is nothing to predict about them.
-    clearly = min(returns, default=math.nan) + _CLEARLY * statistics.deviation
-    if statistics.verdict == "no_model" and statistics.score > clearly:
-        return ""
     return _VERDICTS[statistics.verdict]
 
 
@@ -163,9 +157,7 @@ class Run:
     def warning(self) -> str:
         """Why nothing was learnt, in one line; empty if something was."""
         if isinstance(self.learner, Planner):
-            return _warning(
-                self.learner.statistics, [record.mean_return for record in self.history]
-            )
+            return _warning(self.learner.statistics)
         if isinstance(self.learner, PlannedPolicy):
             return self._kept[1] if self._kept else ""
         if self.learner.classes > 1:

@@ -75,11 +75,13 @@ def _first(log: Log) -> Array:
 
 def _same(one: Any, other: Any) -> Array:
     """Where two columns of observations are the same."""
+    same: Array
     if isinstance(one, dict):
-        return np.all([_same(one[name], other[name]) for name in one], axis=0)
-    if isinstance(one, list):
-        return np.array([_equal(a, b) for a, b in zip(one, other, strict=True)], np.bool_)
-    same: Array = (one == other).reshape(len(one), -1).all(axis=1)
+        same = np.all([_same(one[name], other[name]) for name in one], axis=0)
+    elif isinstance(one, list):
+        same = np.array([_equal(a, b) for a, b in zip(one, other, strict=True)], np.bool_)
+    else:
+        same = (one == other).reshape(len(one), -1).all(axis=1)
     return same
 
 
