@@ -315,6 +315,13 @@ static void test_unsound_fields(void **state) {
     }
 }
 
+/* Where the learner is in the snapshot of p. */
+static uint32_t at_learner(void) {
+    const uint32_t classes = p.agent->tree.classes;
+    return AT_SLOTS + SLOT_BYTES * p.agent->replay.count + 4u + SPLIT_BYTES * (classes - 1u) +
+           classes * (8u + 12u * 4u) + EXPLORER_BYTES(classes);
+}
+
 /* A position of the learner that no learner comes to. */
 static void test_unsound_learner(void **state) {
     (void)state;
@@ -322,10 +329,7 @@ static void test_unsound_learner(void **state) {
     for (uint32_t slices = 1; slices < 80; slices++) {
         rlvc_store store = two_snapshots(90, slices, 80); /* some of them end while SEEK is under
                                                              way */
-        const uint32_t learner = AT_SLOTS + SLOT_BYTES * p.agent->replay.count + 4u +
-                                 SPLIT_BYTES * (p.agent->tree.classes - 1u) +
-                                 p.agent->tree.classes * (8u + 12u * 4u) +
-                                 EXPLORER_BYTES(p.agent->tree.classes);
+        const uint32_t learner = at_learner();
         const uint8_t phase = p.agent->learner.phase;
         if (phase == 0)
             break;
@@ -354,6 +358,24 @@ static void test_unsound_learner(void **state) {
     }
     const uint32_t wanted = 1u << 1 | 1u << 3 | 1u << 4 | 1u << 5 | 1u << 6 | 1u << 7;
     assert_int_equal(phases & wanted, wanted);
+}
+
+/* A search that found nothing, whose mark says that what it found is being weighed. */
+static void test_nothing_to_weigh(void **state) {
+    (void)state;
+    rlvc_store store = two_snapshots(90, 1, RLVC_BUDGET_MIN);
+    const rlvc_learner *learner = &p.agent->learner;
+    rlvc_progress progress = {0};
+    rlvc_split split;
+    while (learner->phase != RLVC_PHASE_SEARCH || !learner->work.split.done ||
+           rlvc_split_search_result(&learner->work.split, &p.agent->space, &split) != NULL) {
+        assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+        assert_false(progress.done);
+    }
+    for (uint32_t i = 0; i < 2; i++)
+        assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
+    assert_int_equal(load(&other, &store), RLVC_OK);
+    assert_int_equal(load_forged(&store, at_learner() + 30u + 4u * 8u, 1, 4), RLVC_E_DAMAGED);
 }
 
 /* A policy that is being made greedy is resumed too; slices rarely end there. */
@@ -677,6 +699,7 @@ int main(void) {
         cmocka_unit_test(test_unsound_fields),
         cmocka_unit_test(test_unsound_learner),
         cmocka_unit_test(test_unsound_phases),
+        cmocka_unit_test(test_nothing_to_weigh),
         cmocka_unit_test(test_resume_improving),
         cmocka_unit_test(test_resume_without_data),
         cmocka_unit_test(test_versions_and_mismatches),

@@ -1,40 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* The fuzz targets of snapshots, one for each kind of domain (RLVC_FUZZ_DOMAIN): loads forged ones.
  * The first two bytes choose what agent the store once held and how far it had come in a learning
- * step; the others change bytes of its snapshot, whose CRC is made right again. What is loaded must
- * be sound, and every later call clean. */
+ * step; the others change its snapshot (forged_store.h). What is loaded must be sound, and every
+ * later call clean. */
 #ifndef RLVC_TESTS_FORGED_SNAPSHOT_H
 #define RLVC_TESTS_FORGED_SNAPSHOT_H
 
-#include "base/bytes.h"
-#include "base/crc.h"
+#define STORE_BYTES 4096u
+#include "forged_store.h"
 #include "rlvc/export.h"
 #include "rlvc/policy.h"
-#include "rlvc/snapshot.h"
 #include "world.h"
 
 #define CAPACITY 16u
-#define STORE_BYTES 4096u
 #define CONFIGS 16u
 #define SLICES 32u
 
-static unsigned char bytes_of_store[STORE_BYTES];
-
-static int read_store(void *ctx, uint32_t offset, void *buffer, uint32_t bytes) {
-    (void)ctx;
-    must(offset + bytes <= STORE_BYTES);
-    memcpy(buffer, bytes_of_store + offset, bytes);
-    return 0;
-}
-
-static int write_store(void *ctx, uint32_t offset, const void *buffer, uint32_t bytes) {
-    (void)ctx;
-    must(offset + bytes <= STORE_BYTES);
-    memcpy(bytes_of_store + offset, buffer, bytes);
-    return 0;
-}
-
-static const rlvc_store store = {NULL, STORE_BYTES / 2, read_store, write_store, NULL, NULL};
 static uint64_t memory[8192], policy_memory[8192];
 
 static rlvc_config config_of(const rlvc_domain *domain, uint32_t choice) {
@@ -76,32 +57,6 @@ static void save(const rlvc_config *config, const rlvc_domain *domain, uint32_t 
         memcpy(kept, bytes_of_store, STORE_BYTES / 2);
     }
     memcpy(bytes_of_store, kept, STORE_BYTES / 2);
-}
-
-/* Each three bytes change one, or four that make a number which is hard to bear. */
-static void forge(const uint8_t *data, size_t size) {
-    static const uint32_t hard[] = {0x7fc00000u, 0x7f800000u, 0xff800000u, 0x5a000000u,
-                                    0x80000000u, 0xffffffffu, 0x7fffffffu, 0x0000ffffu,
-                                    0x00000000u, 0x00000001u, 0x60ad78ecu, 0x7f7fffffu};
-    uint32_t bytes = (uint32_t)rlvc_get(bytes_of_store + 12, 4);
-    for (; size >= 3; data += 3, size -= 3) {
-        uint32_t at = data[0] | (uint32_t)(data[1] & 0x7fu) << 8;
-        if (data[1] & 0x80u)
-            rlvc_put(bytes_of_store + 16 + at % (bytes - 24u),
-                     hard[data[2] % (sizeof hard / sizeof hard[0])], 4);
-        else
-            bytes_of_store[at % (bytes - 4u)] = data[2];
-    }
-    bytes = (uint32_t)rlvc_get(bytes_of_store + 12, 4);
-    if (bytes >= 64u && bytes <= STORE_BYTES / 2)
-        rlvc_put(bytes_of_store + bytes - 4, rlvc_crc(0, bytes_of_store, bytes - 4u), 4);
-}
-
-static int ignore(void *ctx, const char *text, size_t bytes) {
-    (void)ctx;
-    (void)text;
-    (void)bytes;
-    return 0;
 }
 
 static void show(rlvc_agent *agent, const rlvc_domain *domain) {

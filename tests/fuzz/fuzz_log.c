@@ -4,9 +4,9 @@
  * records with a right CRC are made. What is read must be what an agent accepts. */
 #include "base/bytes.h"
 #include "base/crc.h"
+#include "must.h"
 #include "rlvc/log.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #define PERCEPT 5u
@@ -23,11 +23,6 @@ static int read_tape(void *ctx, void *bytes, uint32_t room, uint32_t *got) {
     at += n;
     *got = n;
     return 0;
-}
-
-static void must(int condition) {
-    if (!condition)
-        abort();
 }
 
 /* Records of up to 16 bytes, each of which the input gives but for mark and CRC. */

@@ -3,18 +3,13 @@
  * has its place in the text. What is accepted is a maze as the header promises, the same when its
  * rows are read again, and a world that a walk does not leave. */
 #include "gridworld.h"
+#include "must.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static unsigned char cells[GRIDWORLD_CELLS_MAX], again[GRIDWORLD_CELLS_MAX];
 static char rows[GRIDWORLD_CELLS_MAX + GRIDWORLD_SIDE_MAX];
 static uint32_t queue[GRIDWORLD_CELLS_MAX];
-
-static void must(int condition) {
-    if (!condition)
-        abort();
-}
 
 /* How many free cells have a way to an exit: backwards from the exits, breadth first. */
 static uint32_t cells_with_a_way(const gridworld_maze *maze) {

@@ -4,23 +4,15 @@
 #ifndef RLVC_TESTS_WORLD_H
 #define RLVC_TESTS_WORLD_H
 
+#include "must.h"
 #include "rlvc/bits.h"
 #include "rlvc/spatial.h"
 #include "rlvc/thresholds.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define CELLS 16u
 #define PERCEPT_MAX 32u /* bytes */
-
-/* Says where before it aborts: inlining hides it from the trace. */
-#define must(condition) ((condition) ? (void)0 : wrong(#condition, __FILE__, __LINE__))
-static inline void wrong(const char *condition, const char *file, int line) {
-    fprintf(stderr, "%s:%d: must hold: %s\n", file, line, condition);
-    abort();
-}
 
 /* ------------------------------------------------------------------ a domain of one's own */
 

@@ -147,14 +147,16 @@ static void novelty_single(rlvc_agent *agent) {
 /* Begins, or looks at a position of the ring. */
 static rlvc_status redo_dependence(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
+    rlvc_split split;
+    uint32_t used;
+    const void *feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
+    if (!feature)
+        return RLVC_E_DAMAGED;
     if (!learner->dependence.wanted) {
         learner->dependence.wanted = 1;
         return RLVC_OK;
     }
-    rlvc_split split;
-    uint32_t used;
-    const void *feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
-    return feature ? rlvc_learner_weigh_dependence(agent, feature, 1, &used) : RLVC_E_DAMAGED;
+    return rlvc_learner_weigh_dependence(agent, feature, 1, &used);
 }
 
 static rlvc_status single(rlvc_agent *agent) {
