@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* What it costs to read a log: as much for a byte of a hostile one, but for a constant. What is
- * counted are the bytes that pass the CRC, which stands in here for the library's own. */
+ * counted are the bytes that pass the CRC, which stands in here for the library's own.
+ * RLVC_LOG_BYTES=67108864 makes the logs so long. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -21,7 +23,7 @@
 #include <string.h>
 
 #define PERCEPT 4000u
-#define BYTES 400000u
+#define BYTES 400000u  /* of a log */
 #define SHIFT_COSTS 5u /* as much as so many bytes */
 
 static uint64_t work;
@@ -36,12 +38,12 @@ uint32_t rlvc_crc_shift(uint32_t crc, const uint32_t multiple[16]) {
     return plain_shift(crc, multiple);
 }
 
-static unsigned char tape[BYTES];
-static uint32_t length, at, piece;
+static unsigned char *tape;
+static uint32_t tape_bytes, length, at, piece;
 
 static int tape_write(void *ctx, const void *bytes, uint32_t count) {
     (void)ctx;
-    assert_true(length + count <= BYTES);
+    assert_true(length + count <= tape_bytes);
     memcpy(tape + length, bytes, count);
     length += count;
     return 0;
@@ -113,7 +115,7 @@ static void expect_linear(uint32_t expected) {
 static void test_false_beginnings(void **state) {
     static const unsigned char kinds[] = {0x01, 0x02, 0x03, 0x07, 0x0b, 0x13};
     (void)state;
-    length = BYTES;
+    length = tape_bytes;
     for (uint32_t kind = 0; kind <= sizeof kinds; kind++) {
         for (uint32_t i = 0; i < length; i++)
             tape[i] =
@@ -127,7 +129,7 @@ static void test_whole_records_between(void **state) {
     unsigned char record[13] = {0xa5, 0x0b, 0, 0, 1};
     uint32_t count = 0;
     (void)state;
-    length = BYTES;
+    length = tape_bytes;
     memset(tape, 0, length);
     for (uint32_t i = 0; i + 16u <= length; i += 16u) {
         rlvc_put(record + 2, count++, 2);
@@ -160,9 +162,9 @@ static void test_found_anywhere(void **state) {
     uint32_t placed = 0;
     (void)state;
     rlvc_rng_seed(&rng, 3);
-    for (uint32_t i = 0; i < BYTES; i++)
+    for (uint32_t i = 0; i < tape_bytes; i++)
         tape[i] = alphabet[rlvc_rng_below(&rng, sizeof alphabet)];
-    for (uint32_t i = 3000; i + sizeof honest < BYTES;
+    for (uint32_t i = 3000; i + sizeof honest < tape_bytes;
          i += PERCEPT + 13u + rlvc_rng_below(&rng, 9000)) {
         honest[0] = 0xa5;
         honest[1] = 0x02;
@@ -172,7 +174,7 @@ static void test_found_anywhere(void **state) {
         rlvc_put(honest + 4 + PERCEPT, plain_crc(0, honest, 4 + PERCEPT), 4);
         memcpy(tape + i, honest, PERCEPT + 8u);
     }
-    length = BYTES;
+    length = tape_bytes;
     assert_true(placed > 30);
     expect_linear(placed);
 }
@@ -197,5 +199,10 @@ int main(void) {
         cmocka_unit_test(test_found_anywhere),
         cmocka_unit_test(test_crc_of_parts),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const char *wanted = getenv("RLVC_LOG_BYTES");
+    tape_bytes = wanted ? (uint32_t)strtoul(wanted, NULL, 10) : BYTES;
+    tape = malloc(tape_bytes);
+    int failed = tape ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+    free(tape);
+    return failed;
 }
