@@ -429,7 +429,7 @@ static void test_check(void **state) {
         if (i == 1u)
             agent->config.actions = 0;
         if (i == 2u)
-            agent->tree.depth = 99;
+            agent->tree.node[0] ^= 1u;
         if (i == 3u)
             agent->replay.stored++;
         if (i == 4u)

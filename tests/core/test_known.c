@@ -29,7 +29,7 @@ static void grow(rlvc_agent *agent, uint32_t class_id, uint32_t bit) {
     uint32_t made = agent->tree.classes;
     memset(&about, 0, sizeof about);
     about.class_id = class_id;
-    rlvc_tree_grow(&agent->tree, &about, feature);
+    rlvc_tree_grow(&agent->tree, rlvc_tree_leaf(&agent->tree, class_id), &about, feature);
     rlvc_values_inherit(&agent->values, made, class_id);
     rlvc_explorer_inherit(&agent->explorer, 1, made, class_id);
     agent->pending[made] = 0;

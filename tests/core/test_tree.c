@@ -35,7 +35,7 @@ static void grow(uint32_t class_id, uint32_t bit) {
     memset(&about, 0, sizeof about);
     about.class_id = class_id;
     about.samples = 100u * class_id + bit;
-    rlvc_tree_grow(&tree, &about, feature);
+    rlvc_tree_grow(&tree, rlvc_tree_leaf(&tree, class_id), &about, feature);
 }
 
 /* The class by the history of the splits, without nodes: split j takes the percepts with its
@@ -67,7 +67,7 @@ static uint32_t compare_walk(uint32_t node, uint32_t *at, uint32_t depth) {
 
 /* Built of its splits at once the tree is what it has grown to be. */
 static void compare_built(void) {
-    uint32_t node[2u * CLASSES - 1u], split[CLASSES], depth = tree.depth;
+    uint32_t node[2u * CLASSES - 1u], split[CLASSES];
     memcpy(node, tree.node, sizeof node);
     for (uint32_t j = 0; j + 1u < tree.classes; j++) {
         split[j] = tree.split[j].node;
@@ -76,16 +76,30 @@ static void compare_built(void) {
     memset(tree.node, 0xa5, (2u * tree.classes - 1u) * sizeof *tree.node);
     rlvc_tree_build(&tree, tree.classes);
     assert_memory_equal(tree.node, node, sizeof node);
-    assert_int_equal(tree.depth, depth);
     for (uint32_t j = 0; j + 1u < tree.classes; j++)
         assert_int_equal(tree.split[j].node, split[j]);
 }
 
+/* The leaf of a class is found at once, and step by step. */
+static void check_leaf(uint32_t class_id) {
+    uint32_t leaf = rlvc_tree_leaf(&tree, class_id), node = 2u * class_id;
+    assert_int_equal(tree.node[leaf], RLVC_LEAF | class_id);
+    assert_int_equal(rlvc_tree_seek_leaf(&tree, &node, 0), 2u * class_id == leaf);
+    while (node != leaf) {
+        int found = rlvc_tree_seek_leaf(&tree, &node, 1);
+        assert_int_equal(found, node == leaf);
+    }
+    assert_true(rlvc_tree_seek_leaf(&tree, &node, 1));
+    assert_int_equal(node, leaf);
+}
+
 static void check_tree(void) {
     uint32_t at = 0;
+    for (uint32_t c = 0; c < tree.classes; c++)
+        check_leaf(c);
     assert_true(rlvc_tree_check(&tree));
     compare_built();
-    assert_int_equal(compare_walk(0, &at, 0), tree.depth);
+    assert_int_equal(compare_walk(0, &at, 0), rlvc_tree_deepest(&tree));
     assert_int_equal(at, 0);
     for (uint32_t percept = 0; percept < 1u << BITS; percept += 37u) {
         const unsigned char bytes[2] = {(unsigned char)percept, (unsigned char)(percept >> 8)};
@@ -109,7 +123,7 @@ static void test_growth(void **state) {
             grow(seed == 0 ? 0 : seed == 1u ? newest : random, rlvc_rng_below(&rng, BITS));
             check_tree();
         }
-        assert_true(seed > 1u || tree.depth == CLASSES - 1u);
+        assert_true(seed > 1u || rlvc_tree_deepest(&tree) == CLASSES - 1u);
     }
 }
 
@@ -127,7 +141,7 @@ static void test_failing_detector(void **state) {
     make_tree();
     for (uint32_t class_id = 0; class_id < 5u; class_id++)
         grow(class_id, class_id);
-    for (uint32_t calls = 0; calls <= tree.depth; calls++) {
+    for (uint32_t calls = 0; calls <= rlvc_tree_deepest(&tree); calls++) {
         uint32_t left = calls, class_id = 77, node = 0;
         rlvc_domain failing = bits;
         failing.ctx = &left;
@@ -212,9 +226,6 @@ static void test_check_finds_wrong_sizes(void **state) {
         assert_false(rlvc_tree_check(&tree));
     }
     tree.classes = 5;
-    tree.depth++;
-    assert_false(rlvc_tree_check(&tree));
-    tree.depth--;
     assert_true(rlvc_tree_check(&tree));
 }
 

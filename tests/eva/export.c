@@ -24,7 +24,8 @@ int eva_export(void) {
                             any_real(-1e30f, 1e30f),
                             any_real(-1e30f, 1e30f)};
         uint16_t feature = (uint16_t)any_in(0, 3);
-        rlvc_tree_grow(&agent->tree, &about, &feature);
+        rlvc_tree_grow(&agent->tree, rlvc_tree_leaf(&agent->tree, about.class_id), &about,
+                       &feature);
     }
     for (uint32_t c = 0; c < 3u; c++)
         agent->values.policy[c] = (uint16_t)any_in(0, 1);

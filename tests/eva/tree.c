@@ -29,7 +29,7 @@ int eva_tree(void) {
     (void)rlvc_tree_check(&tree);
     (void)rlvc_tree_classify(&tree, &domain, &percept, &class_id);
     about.class_id = any_in(0, classes - 1u);
-    rlvc_tree_grow(&tree, &about, &feature);
+    rlvc_tree_grow(&tree, rlvc_tree_leaf(&tree, about.class_id), &about, &feature);
     uint32_t node = 0;
     do {
         (void)rlvc_tree_depth(&tree, node);

@@ -232,7 +232,7 @@ rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics) {
     statistics->stored = agent->replay.stored;
     statistics->step = agent->step;
     statistics->classes = agent->tree.classes;
-    statistics->depth = agent->tree.depth;
+    statistics->depth = rlvc_tree_deepest(&agent->tree);
     statistics->last_split = agent->last_split;
     statistics->refused = agent->refused;
     statistics->sweeps = agent->sweeps;

@@ -150,16 +150,23 @@ static rlvc_status step_label(rlvc_agent *agent) {
 
 /* ------------------------------------------------------------------ SEARCH */
 
-/* What it is charged to decide upon a split: some logarithms, or this many features compared. */
+/* What it is charged to decide upon a split: some logarithms, or this many features compared, or
+ * nodes on the way to the leaf. */
 #define DECIDE_UNITS 32u
 
-/* Carries a split of class `at` out. */
-static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
+/* Carries a split of class `at` out. @return 1; -1: its leaf is further away. */
+static int grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
     rlvc_learner *learner = &agent->learner;
     uint32_t made = agent->tree.classes;
+    if (learner->searching != RLVC_GROWING) {
+        learner->searching = RLVC_GROWING;
+        learner->walk.node = 2u * learner->at;
+    }
+    if (!rlvc_tree_seek_leaf(&agent->tree, &learner->walk.node, DECIDE_UNITS))
+        return -1;
     split->class_id = learner->at;
     split->step = agent->step;
-    rlvc_tree_grow(&agent->tree, split, feature);
+    rlvc_tree_grow(&agent->tree, learner->walk.node, split, feature);
     rlvc_values_inherit(&agent->values, made, learner->at);
     if (!rlvc_is_incremental(&agent->config)) { /* the next solution separates the two */
         rlvc_values_forget(&agent->values, made);
@@ -171,6 +178,7 @@ static void grow(rlvc_agent *agent, rlvc_split *split, const void *feature) {
     agent->last_split = agent->step;
     learner->made++;
     learner->splits++;
+    return 1;
 }
 
 /* Compares some more of the tree's features with one.
@@ -192,6 +200,8 @@ static int recognise(rlvc_agent *agent, const void *feature) {
  * no noise, and neither is one that the agent influences. */
 static int is_significant(rlvc_agent *agent, const rlvc_split *split, const void *feature) {
     rlvc_learner *learner = &agent->learner;
+    if (learner->searching == RLVC_GROWING)
+        return 1;
     float level = rlvc_learner_log_level(agent), known = rlvc_ln(agent->config.alpha_known);
     if (!(split->log_p < (level > known ? level : known)))
         return 0;
@@ -228,14 +238,14 @@ uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *f
     rlvc_learner *learner = &agent->learner;
     uint32_t used = 1u;
     if (feature) {
-        int significant = is_significant(agent, split, feature);
+        int made = is_significant(agent, split, feature);
         used = DECIDE_UNITS;
-        if (significant < 0)
-            return used;
-        if (significant > 0 && agent->tree.classes == agent->tree.classes_max)
+        if (made > 0 && agent->tree.classes == agent->tree.classes_max)
             agent->refused++;
-        else if (significant > 0)
-            grow(agent, split, feature);
+        else if (made > 0)
+            made = grow(agent, split, feature);
+        if (made < 0)
+            return used;
     }
     learner->searching = 0;
     learner->walk.compared = 0;
@@ -272,7 +282,7 @@ void rlvc_learner_begin_search(rlvc_agent *agent) {
         rlvc_influence_begin(&learner->work.successors, &input, first,
                              learner->classes * agent->space.actions,
                              rlvc_learner_log_level(agent));
-    learner->searching = 1;
+    learner->searching = RLVC_SEARCHING;
 }
 
 /* Goes on with what is sought in the phase. */

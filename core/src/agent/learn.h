@@ -33,8 +33,8 @@ rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
                                           const rlvc_target_input *criterion);
 
 /* Takes what was found in class `at`, its feature or null, and carries the split out if it is
- * significant. The features of the tree are compared with it some at a time: the class is done once
- * `at` is the next one.
+ * significant. The features of the tree are compared with it some at a time, and some nodes are
+ * gone down to the class's leaf: the class is done once `at` is the next one.
  * @return the units used */
 uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature);
 

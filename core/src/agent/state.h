@@ -13,6 +13,10 @@
 #include "../split/successor_search.h"
 #include "../tree/tree.h"
 
+/* learner.searching, as snapshots have it. */
+#define RLVC_SEARCHING 1u
+#define RLVC_GROWING 5u /* the split that was found is being made */
+
 /* A learning step under way: see learn.c. */
 typedef struct rlvc_learner {
     union {
@@ -26,7 +30,8 @@ typedef struct rlvc_learner {
     uint32_t end; /* N: interactions at positions [0, end) are the database */
     uint32_t at;  /* position, pair or class, by phase */
     union {
-        uint32_t node; /* LABEL: where the walk of the percept at position `at` is */
+        uint32_t node; /* LABEL: where the walk of the percept at position `at` is; RLVC_GROWING:
+                          where that to the leaf of class `at` is */
         uint32_t
             compared; /* a search: how many of the tree's features the new one was compared with */
     } walk;
@@ -37,7 +42,7 @@ typedef struct rlvc_learner {
     uint32_t made;              /* made in this round */
     uint32_t influenced;        /* SUCCESSORS: features in the workspace's block */
     uint8_t phase;
-    uint8_t searching; /* the search in class `at` has begun */
+    uint8_t searching; /* RLVC_SEARCHING, RLVC_GROWING, or 0: class `at` was not begun */
     uint8_t failed;    /* the last call of rlvc_learn did */
 } rlvc_learner;
 

@@ -67,7 +67,7 @@ static void copy_tree(const nodes *tree, rlvc_policy *policy) {
         rlvc_split about;
         memset(&about, 0, sizeof about);
         about.class_id = rlvc_tree_class(&policy->tree, tree->tested[j]);
-        rlvc_tree_grow(&policy->tree, &about, &feature);
+        rlvc_tree_grow(&policy->tree, tree->tested[j], &about, &feature);
     }
     for (uint32_t k = 0; k < tree->count; k++)
         if (tree->node[k].component == RLVC_PLANNER_LEAF)

@@ -208,7 +208,7 @@ static void split(maker *m, uint32_t leaf, const void *feature) {
     rlvc_split about;
     memset(&about, 0, sizeof about);
     about.class_id = leaf;
-    rlvc_tree_grow(&m->policy->tree, &about, feature);
+    rlvc_tree_grow(&m->policy->tree, rlvc_tree_leaf(&m->policy->tree, leaf), &about, feature);
 }
 
 /* The tree that was found. */

@@ -110,15 +110,23 @@ static int counts_are_sound(const rlvc_agent *agent) {
            learner->classes == classes - made;
 }
 
+/* A split that is being made leads down the chain of its class. */
+static int search_is_sound(const rlvc_agent *agent) {
+    const rlvc_learner *learner = &agent->learner;
+    const int may_search = rlvc_phase_splits(learner->phase) && learner->at < learner->classes;
+    if (learner->searching == RLVC_GROWING)
+        return may_search && rlvc_tree_first_class(&agent->tree, learner->walk.node) == learner->at;
+    return learner->searching <= may_search;
+}
+
 int rlvc_cursor_marks_check(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
     if (!phase_is_possible(agent) || !pending_is_sound(agent))
         return 0;
     if (learner->phase == RLVC_PHASE_IDLE)
         return agent->replay.frozen == 0;
-    int may_search = rlvc_phase_splits(learner->phase) && learner->at < learner->classes;
-    return counts_are_sound(agent) && learner->searching <= may_search &&
-           database_is_sound(agent) && labels_are_sound(agent);
+    return counts_are_sound(agent) && search_is_sound(agent) && database_is_sound(agent) &&
+           labels_are_sound(agent);
 }
 
 /* ------------------------------------------------------------------ the way back */
@@ -231,11 +239,12 @@ static rlvc_status redo_search(rlvc_agent *agent, const rlvc_cursor_mark *mark) 
     (void)redo(agent, RLVC_PHASE_GROUP, NULL);
     if (learner->phase == RLVC_PHASE_SUCCESSORS)
         status = redo_influence(agent);
+    if (status == RLVC_OK && searching) {
+        rlvc_learner_begin_search(agent);
+        status = advance_to(agent, mark);
+    }
     learner->searching = searching;
-    if (status != RLVC_OK || !searching)
-        return status;
-    rlvc_learner_begin_search(agent);
-    return advance_to(agent, mark);
+    return status;
 }
 
 /* The solver goes over the values in place, so that its cursor is taken from the mark itself. */

@@ -19,7 +19,6 @@ void rlvc_tree_carve(rlvc_tree *tree, rlvc_arena *arena, uint32_t classes_max,
 void rlvc_tree_clear(rlvc_tree *tree) {
     tree->node[0] = RLVC_LEAF | 0u;
     tree->classes = 1;
-    tree->depth = 0;
 }
 
 rlvc_status rlvc_tree_descend(const rlvc_tree *tree, const rlvc_domain *domain, const void *percept,
@@ -44,17 +43,22 @@ rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain,
     return RLVC_OK;
 }
 
-static uint32_t leaf_of(const rlvc_tree *tree, uint32_t class_id) {
+int rlvc_tree_seek_leaf(const rlvc_tree *tree, uint32_t *node, uint32_t steps) {
+    for (; steps > 0 && !rlvc_tree_is_leaf(tree, *node); steps--)
+        *node = tree->node[*node];
+    return rlvc_tree_is_leaf(tree, *node);
+}
+
+uint32_t rlvc_tree_leaf(const rlvc_tree *tree, uint32_t class_id) {
     uint32_t node = 2u * class_id;
-    while (!rlvc_tree_is_leaf(tree, node))
-        node = tree->node[node];
+    (void)rlvc_tree_seek_leaf(tree, &node, UINT32_MAX);
     return node;
 }
 
-void rlvc_tree_grow(rlvc_tree *tree, const rlvc_split *about, const void *feature) {
+void rlvc_tree_grow(rlvc_tree *tree, uint32_t leaf, const rlvc_split *about, const void *feature) {
     RLVC_ASSERT(tree->classes < tree->classes_max && about->class_id < tree->classes);
+    RLVC_ASSERT(tree->node[leaf] == (RLVC_LEAF | about->class_id));
     uint32_t j = tree->classes - 1u;
-    uint32_t leaf = leaf_of(tree, about->class_id);
     tree->split[j].node = leaf;
     tree->split[j].about = *about;
     memcpy(rlvc_tree_feature(tree, j), feature, tree->feature_bytes);
@@ -62,9 +66,6 @@ void rlvc_tree_grow(rlvc_tree *tree, const rlvc_split *about, const void *featur
     tree->node[2u * j + 2u] = RLVC_LEAF | (j + 1u);
     tree->node[leaf] = 2u * j + 1u;
     tree->classes++;
-    uint32_t depth = rlvc_tree_depth(tree, 2u * j + 1u);
-    if (depth > tree->depth)
-        tree->depth = depth;
 }
 
 uint32_t rlvc_tree_walk(const rlvc_tree *tree, uint32_t node) {
@@ -83,25 +84,23 @@ uint32_t rlvc_tree_depth(const rlvc_tree *tree, uint32_t node) {
     return depth;
 }
 
-/* The class of the percepts that came to a node when it was made. */
-static uint32_t first_class(const rlvc_tree *tree, uint32_t node) {
+uint32_t rlvc_tree_first_class(const rlvc_tree *tree, uint32_t node) {
     return node % 2u == 0 ? node / 2u : tree->split[(node - 1u) / 2u].about.class_id;
 }
 
-/* Tests on the longest path: counted along the walk, as it goes down and up. */
-static uint32_t deepest(const rlvc_tree *tree) {
+/* Counted along the walk, as it goes down and up. */
+uint32_t rlvc_tree_deepest(const rlvc_tree *tree) {
     uint32_t node = 0, depth = 0, most = 0;
-    do {
-        if (!rlvc_tree_is_leaf(tree, node)) {
-            depth++;
-            most = depth > most ? depth : most;
-        } else {
-            for (uint32_t at = node; at != 0 && at % 2u == 0; at = rlvc_tree_parent(tree, at))
-                depth--;
-        }
-        node = rlvc_tree_walk(tree, node);
-    } while (node != 0);
-    return most;
+    for (;;) {
+        for (; !rlvc_tree_is_leaf(tree, node); depth++)
+            node = tree->node[node];
+        most = depth > most ? depth : most;
+        for (; node != 0 && node % 2u == 0; depth--)
+            node = rlvc_tree_parent(tree, node);
+        if (node == 0)
+            return most;
+        node++;
+    }
 }
 
 /* While the splits are gone through, node[2c] is the leaf that class c has come to. */
@@ -116,10 +115,9 @@ void rlvc_tree_build(rlvc_tree *tree, uint32_t classes) {
         *leaf = 2u * j + 1u;
     }
     for (uint32_t node = 0; node < 2u * classes - 1u; node++)
-        tree->node[node] = RLVC_LEAF | first_class(tree, node);
+        tree->node[node] = RLVC_LEAF | rlvc_tree_first_class(tree, node);
     for (uint32_t j = 0; j + 1u < classes; j++)
         tree->node[tree->split[j].node] = 2u * j + 1u;
-    tree->depth = deepest(tree);
 }
 
 /* Was split j made of an older node of its class, which leads to the two that it made? Where that
@@ -127,14 +125,14 @@ void rlvc_tree_build(rlvc_tree *tree, uint32_t classes) {
 static int split_is_sound(const rlvc_tree *tree, uint32_t j) {
     const rlvc_tree_split *split = &tree->split[j];
     return split->node <= 2u * j && tree->node[split->node] == 2u * j + 1u &&
-           first_class(tree, split->node) == split->about.class_id;
+           rlvc_tree_first_class(tree, split->node) == split->about.class_id;
 }
 
 /* Is a node a leaf of its class, or the node of some split? With sound splits every way down the
  * tree then leads to younger nodes, and ends. */
 static int node_is_sound(const rlvc_tree *tree, uint32_t node) {
     if (rlvc_tree_is_leaf(tree, node))
-        return rlvc_tree_class(tree, node) == first_class(tree, node);
+        return rlvc_tree_class(tree, node) == rlvc_tree_first_class(tree, node);
     uint32_t split = rlvc_tree_split_of(tree, node);
     return split < tree->classes - 1u && tree->split[split].node == node;
 }
@@ -151,5 +149,5 @@ int rlvc_tree_check(const rlvc_tree *tree) {
         if (!node_is_sound(tree, node))
             return 0;
     }
-    return deepest(tree) == tree->depth;
+    return 1;
 }

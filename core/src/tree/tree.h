@@ -26,7 +26,6 @@ typedef struct rlvc_tree {
     uint32_t classes_max;
     uint32_t feature_bytes;
     uint32_t classes;
-    uint32_t depth; /* tests on the longest path */
 } rlvc_tree;
 
 /* Carves the arrays. O(1). */
@@ -63,9 +62,16 @@ rlvc_status rlvc_tree_descend(const rlvc_tree *tree, const rlvc_domain *domain, 
 rlvc_status rlvc_tree_classify(const rlvc_tree *tree, const rlvc_domain *domain,
                                const void *percept, uint32_t *class_id);
 
+/* Goes down the chain of a class, which begins at node 2c, by so many nodes at most.
+ * @return 1 if *node is its end, the leaf of the class. O(steps). */
+int rlvc_tree_seek_leaf(const rlvc_tree *tree, uint32_t *node, uint32_t steps);
+
+/* The leaf of a class. O(depth). */
+uint32_t rlvc_tree_leaf(const rlvc_tree *tree, uint32_t class_id);
+
 /* Splits the leaf of about->class_id by a feature, which is copied; needs classes < classes_max.
- * O(depth). */
-void rlvc_tree_grow(rlvc_tree *tree, const rlvc_split *about, const void *feature);
+ * O(feature_bytes). */
+void rlvc_tree_grow(rlvc_tree *tree, uint32_t leaf, const rlvc_split *about, const void *feature);
 
 /* Makes the tree of splits [0, classes - 1), whose `about` and features are in their places: as if
  * they had been grown one after another. about.class_id of split j is at most j. O(classes). */
@@ -82,6 +88,12 @@ uint32_t rlvc_tree_walk(const rlvc_tree *tree, uint32_t node);
 
 /* Tests above a node. O(depth). */
 uint32_t rlvc_tree_depth(const rlvc_tree *tree, uint32_t node);
+
+/* Tests on the longest path. O(nodes). */
+uint32_t rlvc_tree_deepest(const rlvc_tree *tree);
+
+/* The class of the percepts that came to a node when it was made. O(1). */
+uint32_t rlvc_tree_first_class(const rlvc_tree *tree, uint32_t node);
 
 /* @return 1 if every invariant holds. O(nodes). */
 int rlvc_tree_check(const rlvc_tree *tree);

@@ -29,7 +29,7 @@ struct Tree {
                 static_cast<unsigned char>(level), 0};
             for (uint32_t c = 0, grown = tree.classes; c < grown; c++) {
                 const rlvc_split about = {c, 0, 0, 0, 0.0F, 0.0F, 0.0F};
-                rlvc_tree_grow(&tree, &about, feature);
+                rlvc_tree_grow(&tree, rlvc_tree_leaf(&tree, c), &about, feature);
             }
         }
     }
