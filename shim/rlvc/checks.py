@@ -6,6 +6,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from .errors import ConfigError, Error
 
 
@@ -55,6 +57,8 @@ def real(name: str, value: Any, error: type[Error] = ConfigError) -> float:
     try:
         if getattr(value, "size", 1) != 1 or isinstance(value, str | bytes):
             raise TypeError
+        if np.ma.is_masked(value):  # it would be 0
+            raise TypeError
         number = float(value.item()) if hasattr(value, "item") else float(value)
     except (AttributeError, OverflowError, TypeError, ValueError):
         raise error(f"{name}: {value!r:.80} is not a number: give a float") from None
@@ -78,7 +82,7 @@ def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
     -------
     bool
     """
-    if getattr(value, "size", 1) == 1 and hasattr(value, "item"):
+    if getattr(value, "size", 1) == 1 and hasattr(value, "item") and not np.ma.is_masked(value):
         value = value.item()
     if isinstance(value, bool | int | float) and value in (0, 1):
         return bool(value)

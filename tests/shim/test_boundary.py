@@ -78,9 +78,10 @@ def fifth(value):
 
 REFUSED = [
     *[("reward", value, errors.RewardError) for value in (
-        None, "1", b"1", [1.0], np.zeros(2), np.zeros(0), np.nan, np.inf, 1j, 2e12, 10**400, {}, object())],
+        None, "1", b"1", [1.0], np.zeros(2), np.zeros(0), np.nan, np.inf, 1j, 2e12, 10**400, {}, object(),
+        np.ma.masked)],
     *[(name, value, errors.EnvError) for name in ("terminated", "truncated") for value in (
-        None, "no", 2, -1, 0.5, np.nan, np.zeros(2), np.zeros(0), [], {}, object())],
+        None, "no", 2, -1, 0.5, np.nan, np.zeros(2), np.zeros(0), [], {}, object(), np.ma.masked)],
     *[("observation", value, errors.PerceptError) for value in (
         None, "a", 4, -1, 1.0, np.nan, [0, 1], np.zeros(2, int), {}, [[1], [1, 2]], 2**70, object())],
     *[("step", value, errors.EnvError) for value in (
@@ -140,6 +141,45 @@ def test_numbers_that_are_none_name_their_component():
         rlvc.learn(Ring(space, observation=lambda _: broken), 100)
     with pytest.raises(errors.PerceptError, match="without 'b'"):
         rlvc.learn(Ring(space, observation=lambda _: {"a": np.zeros((2, 2))}), 100)
+
+
+@pytest.mark.parametrize("value", [
+    np.array([1, 1j]), np.array(["NaT"] * 2, "M8[s]"), np.zeros(2, [("a", "f4")]), np.array(["1", "2"]),
+    np.ma.array([0.0, 1.0], mask=[True, False]),
+])  # fmt: skip
+def test_arrays_of_what_is_no_number(value):
+    space = spaces.Box(-9, 9, (2,))
+    with pytest.raises(errors.PerceptError, match="observation: "):
+        rlvc.learn(Ring(space, observation=lambda _: value), 100, method="classes")
+    run = rlvc.learn(Ring(space, observation=lambda _: np.zeros(2)), 100, method="classes")
+    with pytest.raises(errors.PerceptError):
+        run.predict(value[None])
+
+
+@pytest.mark.parametrize("info", [
+    None, 5, [1], np.zeros(0), np.zeros(3), *({"action_mask": mask} for mask in (
+        [[1], [1, 2]], "x", np.zeros(0), np.ones((3, 3)), object(), np.array(["a", "b"]))),
+])  # fmt: skip
+def test_infos_that_say_nothing(info):
+    def step(value):
+        return (*value[:4], info)
+
+    assert learnt(step=step) == learnt()
+
+
+def test_actions_without_elements():
+    env = Ring()
+    for space in (spaces.MultiDiscrete([]), spaces.Box(-1, 1, (0,))):
+        env.action_space = space
+        with pytest.raises(errors.SpaceError, match="no elements"):
+            rlvc.learn(env, 100, bins=3 if isinstance(space, spaces.Box) else None)
+
+
+def test_runs_on_percepts_take_batches():
+    run = rlvc.learn(Ring(), 100, seed=1)
+    run.encoder = None
+    percepts = np.arange(4, dtype=np.uint8)[:, None]
+    assert run.predict(percepts).tolist() == [run.predict(percept) for percept in percepts]
 
 
 @pytest.mark.parametrize(

@@ -27,6 +27,7 @@ from ..checks import whole
 from ..errors import ConfigError, LogError, SpaceError
 
 MOST = 255
+HOLD_MAX = 10**6
 
 
 class Actions:
@@ -101,9 +102,13 @@ class Actions:
         table = fields["table"]
         array = None if table is None else np.array(table, fields["dtype"])
         count = whole("count", fields["count"], 1, MOST)
-        if array is not None and len(array) != count:
-            raise ConfigError(f"table: {len(array)} actions, expected {count}")
-        return cls(count, fields["start"], array, fields["hold"], fields["words"])
+        start = whole("start", fields["start"], -(2**62), 2**62)
+        words = [str(word) for word in fields["words"]]
+        if array is not None and (len(array) != count or array.dtype.kind not in "biuf"):
+            raise ConfigError(f"table: {array.dtype}[{len(array)}], expected {count} actions")
+        if len(words) not in (0, count):
+            raise ConfigError(f"words: {len(words)}, expected {count}")
+        return cls(count, start, array, whole("hold", fields["hold"], 1, HOLD_MAX), words)
 
 
 def actions_of(space: Any, bins: int | Sequence[int] | None = None, hold: int = 1) -> Actions:
@@ -130,7 +135,9 @@ def actions_of(space: Any, bins: int | Sequence[int] | None = None, hold: int = 
     """
     from gymnasium import spaces
 
-    hold = whole("hold", hold, 1, 10**6)
+    if 0 in (getattr(space, "shape", None) or ()):
+        raise SpaceError(f"{space} has no elements, so that there is nothing to choose")
+    hold = whole("hold", hold, 1, HOLD_MAX)
     if bins is not None and not isinstance(space, spaces.Box):
         raise ConfigError(f"bins: {space} is finite already: leave bins out")
     if isinstance(space, spaces.Discrete):

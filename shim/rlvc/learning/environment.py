@@ -72,9 +72,11 @@ class Environment:
         if mask is None:
             self.masks = None
             return
-        masks = np.asarray(mask).reshape(self.count, -1)
-        fits = masks.shape[1] == self.actions.count and masks.dtype != object
-        if not fits:
+        try:
+            masks = np.asarray(mask).reshape(self.count, -1)
+        except ValueError:  # ragged, or not one for each environment
+            masks = np.empty((self.count, 0))
+        if masks.shape[1] != self.actions.count or masks.dtype.kind not in "biuf":
             self.masks = None
             return
         self.masks = masks.astype(np.bool_)
@@ -116,7 +118,7 @@ class Environment:
             reward += more
         if terminated or truncated:
             self.restart()
-        elif info or self.masks is not None or isinstance(following, dict):
+        elif info.__class__ is not dict or info or self.masks is not None or isinstance(following, dict):
             self._see(following, info)
         else:
             self.current = following

@@ -141,6 +141,8 @@ class Part:
 
     def _array(self, value: Any) -> Array:
         """The value as an array of the right shape."""
+        if np.ma.is_masked(value):
+            raise self._wrong(value)
         try:
             array = np.asarray(value)
             if self.size == 1 and array.size == 1:
@@ -227,9 +229,13 @@ class Part:
         if self.kind == "word":
             indices = np.array([self._word(value) for value in batch])
             return np.asarray(indices[:, None] == np.arange(self.width))
+        if np.ma.is_masked(batch):
+            raise self._wrong(batch)
         batch = np.asarray(batch)
         count = len(batch)
         if self.kind == "flags":
+            if not ((batch == 0) | (batch == 1)).all():
+                raise self._wrong(batch)
             return np.asarray(batch.reshape(count, self.size), np.bool_)
         if self.kind == "reals":
             return self._clipped(batch.reshape(count, self.size))
@@ -246,6 +252,8 @@ class Part:
 
     def _clipped(self, rows: Array) -> Array:
         try:
+            if rows.dtype.kind not in "biufO":
+                raise TypeError
             rows = rows.astype(np.float64)
         except (TypeError, ValueError):
             raise self._wrong(rows) from None

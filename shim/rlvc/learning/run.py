@@ -233,9 +233,14 @@ class Run:
         PerceptError
             It is not an element of the space, or contains NaN.
         """
-        if isinstance(self.encoder, Encoder) and self.encoder.is_batch(observation):
+        if self._is_batch(observation):
             return self.actions.of_many(self.indices(self.percepts(observation)))
         return self.act(observation)
+
+    def _is_batch(self, observation: Any) -> bool:
+        if self.encoder is None:
+            return np.ndim(observation) > len(self.learner.domain.percept_shape)
+        return isinstance(self.encoder, Encoder) and self.encoder.is_batch(observation)
 
     def act(self, observation: Any) -> Any:
         """Return the action at one observation: as :meth:`predict`, which also takes batches.

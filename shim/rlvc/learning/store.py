@@ -13,6 +13,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import json
+import math
 import zlib
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.planner_config import PlannerConfig
 from ..agent.snapshot import described, domain_of
+from ..checks import flag, real, whole
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
 from ..errors import BusyError, Error, SnapshotError, StoreError
@@ -33,6 +35,7 @@ from .explanation import Seen
 from .run import Record, Run
 
 _MAGIC = b"rlvc run 1\n"
+_WHOLE = (0, 2**63 - 1)  # the range of counts
 
 
 def is_run(file: str | Path) -> bool:
@@ -162,16 +165,35 @@ def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None
         learner = PlannedPolicy(domain, head["actions"], head["nodes"])
     else:
         raise SnapshotError("damaged: the policy of a planner has percepts of real numbers")
-    run = Run(learner, encoder, head["seed"], Actions.from_dict(head["spelled"]))
-    run.interrupted = head["interrupted"]
-    run.history = [Record(*record) for record in head["history"]]
-    count, seen, stride = head["seen"]
-    size = domain.percept_bytes
-    if len(kept) != count * size:
-        raise SnapshotError(f"damaged: {len(kept)} bytes of percepts, expected {count * size}")
-    run.seen = Seen([kept[i * size : (i + 1) * size] for i in range(count)], seen, stride)
+    actions = Actions.from_dict(head["spelled"])
+    known = learner.actions if isinstance(learner, PlannedPolicy) else learner.config.actions
+    if actions.count != known:
+        raise SnapshotError(f"damaged: {actions.count} actions, and the learner has {known}")
+    if type(encoder) is Encoder and encoder.domain.percept_bytes != domain.percept_bytes:
+        raise SnapshotError("damaged: the encoder makes percepts of another size")
+    run = Run(learner, encoder, whole("seed", head["seed"], *_WHOLE), actions)
+    run.interrupted = flag("interrupted", head["interrupted"])
+    run.history = [_record(record) for record in head["history"]]
+    run.seen = _seen(kept, domain.percept_bytes, *head["seen"])
     if isinstance(learner, PlannedPolicy):
-        run._kept = (head["interactions"], head["warning"])
+        run._kept = (whole("interactions", head["interactions"], *_WHOLE), str(head["warning"]))
     if head["compaction"] is not None:
         run.compact(**head["compaction"])
     return run
+
+
+def _record(fields: list[Any]) -> Record:
+    *names, last = (field.name for field in dataclasses.fields(Record))
+    *counts, mean = fields
+    made: dict[str, Any] = {n: whole(n, v, *_WHOLE) for n, v in zip(names, counts, strict=True)}
+    unknown = isinstance(mean, float) and math.isnan(mean)
+    made[last] = mean if unknown else real(last, mean)
+    return Record(**made)
+
+
+def _seen(kept: bytes, size: int, count: Any, seen: Any, stride: Any) -> Seen:
+    count = whole("seen", count, 0, Seen.room)
+    if len(kept) != count * size:
+        raise SnapshotError(f"damaged: {len(kept)} bytes of percepts, expected {count * size}")
+    percepts = [kept[i * size : (i + 1) * size] for i in range(count)]
+    return Seen(percepts, whole("seen", seen, *_WHOLE), whole("stride", stride, 1, _WHOLE[1]))
