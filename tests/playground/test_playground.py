@@ -170,6 +170,36 @@ def test_large_maze(page):
     assert 1 < page.locator("#tree g.node").count() != nodes
 
 
+def processor_ms(devtools):
+    """The processor time of the page's thread so far: unlike a clock, it does not see what else runs."""
+    metrics = devtools.send("Performance.getMetrics")["metrics"]
+    return 1000 * next(each["value"] for each in metrics if each["name"] == "TaskDuration")
+
+
+def test_thirty_frames_a_second(page):
+    """What a frame of 30 x 30 cells costs while it is learnt as fast as it can, and the dearest kind of frame, which
+    draws everything anew."""
+    page.select_option("#preset", "Nine rooms, 30 by 30")
+    page.evaluate("page.then(({lab, maze}) => { while (lab.view.classes < 400) lab.tick(1000);"
+                  " maze.finished = true; maze.setSpeed(4); window.runner = maze.runner; })")  # fmt: skip
+    devtools = page.context.new_cdp_session(page)
+    devtools.send("Performance.enable", {"timeDomain": "threadTicks"})
+    page.click("#run")
+    start, first = processor_ms(devtools), page.evaluate("runner.frames")
+    page.wait_for_function(f"runner.frames >= {first + 60}")
+    page.click("#run")
+    frames = page.evaluate("runner.frames") - first
+    mean = (processor_ms(devtools) - start) / frames
+    start = processor_ms(devtools)
+    page.evaluate("page.then(({maze}) => { for (let i = 0; i < 20; i++) maze.refresh(true); })")
+    whole = (processor_ms(devtools) - start) / 20
+    slice_ms = page.evaluate("SLICE_MS")
+    print(f"{page.viewport_size['width']} pixels: {mean:.1f} ms of processor time a frame (mean of {frames}), "
+          f"{whole:.1f} ms to draw everything anew beside {slice_ms} ms of learning")  # fmt: skip
+    assert mean < 1000 / 30
+    assert slice_ms + whole < 1000 / 30
+
+
 def test_decision(page):
     finish(page)
     page.get_by_role("tab", name="One decision").click()
@@ -180,6 +210,51 @@ def test_decision(page):
     assert first.startswith("Cell x = 0, y = 0: bit")
     assert page.locator("#path-tree .node.on").count() > 1
     page.screenshot(path=FOLDER / f"decision_{page.viewport_size['width']}.png", full_page=True)
+
+
+def touch(devtools, kind, points):
+    devtools.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in points]})
+
+
+def test_fingers(page):
+    """A finger draws a wall of several cells, without the page scrolling away, and shows a decision."""
+    if page.viewport_size["width"] > 800:
+        pytest.skip("no fingers at a desk")
+    devtools = page.context.new_cdp_session(page)
+    page.locator("#maze").scroll_into_view_if_needed()
+    box = page.locator("#maze").bounding_box()
+    cell = box["width"] / 9
+    row = [(box["x"] + (x + 0.5) * cell, box["y"] + 5.5 * cell) for x in range(4)]
+    before = page.evaluate("scrollY")
+    touch(devtools, "touchStart", row[:1])
+    for at in row[1:]:
+        touch(devtools, "touchMove", [at])
+    touch(devtools, "touchEnd", [])
+    assert page.evaluate("page.then(({lab}) => lab.rows[5])") == "####....."
+    assert page.evaluate("scrollY") == before
+    page.get_by_role("tab", name="One decision").tap()
+    page.locator("#path-maze").tap(position={"x": 10, "y": 10})
+    assert page.inner_text("#decision").startswith("Cell x = 0, y = 0")
+
+
+def test_keys_of_the_other_tabs(page):
+    """A cart is run and pushed, a node of its tree chosen, and a cell pointed at, by the keyboard alone."""
+    page.locator("[role=tab]").first.focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#cart-run").focus()
+    page.keyboard.press("Enter")
+    page.wait_for_function("document.getElementById('cart-interactions').textContent !== '0'")
+    page.keyboard.press("Enter")
+    assert page.inner_text("#cart-run") == "Run"
+    page.locator("#cart-tree g[data-node='0']").focus()
+    page.keyboard.press("Enter")
+    assert page.inner_text("#cart-node") != "Click a node to read its test."
+    page.locator("[role=tab]").nth(1).focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#path-maze").focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowDown"):
+        page.keyboard.press(key)
+    assert page.inner_text("#decision").startswith("Cell x = 1, y = 1")
 
 
 def test_pole(page):
