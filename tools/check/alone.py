@@ -55,7 +55,14 @@ TARGETS = (
     Target("Cortex-M4F", "arm-none-eabi-gcc",
            ARDUINO + " -mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16 --specs=picolibc.specs",
            "qemu-system-arm -M mps2-an386" + QEMU, BARE.format(flash="0", ram="0x20000000")),
-    Target("RISC-V, 64 bits", "riscv64-unknown-elf-gcc",
+    Target("Cortex-M3", "arm-none-eabi-gcc", "-std=c99 -Os -mthumb -mcpu=cortex-m3 --specs=picolibc.specs",
+           "qemu-system-arm -M mps2-an385" + QEMU, BARE.format(flash="0", ram="0x20000000"), programs=("row",)),
+    Target("RISC-V of 32 bits", "riscv64-unknown-elf-gcc",
+           "-std=gnu17 -Os -march=rv32imac -mabi=ilp32 --specs=picolibc.specs",
+           "qemu-system-riscv32 -M virt -bios none" + QEMU, BARE.format(flash="0x80000000", ram="0x80200000"),
+           programs=("row",)),
+    Target("Windows", "x86_64-w64-mingw32-gcc", "-O2", "/usr/lib/wine/wine64", orders=True),
+    Target("RISC-V of 64 bits", "riscv64-unknown-elf-gcc",
            "-O1 -march=rv64imafdc -mabi=lp64d -mcmodel=medany --specs=picolibc.specs",
            "qemu-system-riscv64 -M virt -bios none" + QEMU, BARE.format(flash="0x80000000", ram="0x80200000")),
 )
@@ -76,6 +83,13 @@ def run(command):
         raise Failed(f"{' '.join(str(part) for part in command)}: exit status {done.returncode}\n"
                      f"{done.stderr.decode(errors='replace')[-2000:]}")
     return done.stdout.replace(b"\r", b""), done.stderr
+
+
+def identity(compiler):
+    """What the compiler says that it is, and of which version: another processor's is the same compiler."""
+    said = run([compiler, "-v" if compiler == "tcc" else "--version"])[0].decode().splitlines()[0]
+    family = "clang" if "clang" in said else "tcc" if "tcc" in said else "gcc"
+    return f"{family} {re.search(r'[0-9]+', said.split(')')[-1] if family == 'gcc' else said)[0]}"
 
 
 def missing(target):
@@ -109,7 +123,7 @@ class Builds:
         beside = [PROGRAMS / name for name in target.beside]
         built = {}
         for name in (*target.programs, *(["orders"] if target.orders else [])):
-            built[name] = place / name
+            built[name] = place / f"{name}.exe"  # Windows wants the suffix
             run([target.compiler, *options, f"-I{ROOT}/core/include", PROGRAMS / f"{name}.c", *beside,
                  place / "rlvc.o", *target.link.split(), "-o", built[name]])
         return built
@@ -183,6 +197,7 @@ def main():
     passed = failed = 0
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        os.environ.update(WINEPREFIX=str(folder / "wine"), WINEDEBUG="-all")
         builds = Builds(folder)
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             results = {target.name: pool.submit(try_target, target, builds) for target in targets}
@@ -194,6 +209,9 @@ def main():
         failed += 1
     for target, program in skipped.items():
         print(f"skipped: {target} (no {program})")
+    compilers = sorted({identity(target.compiler) for target in targets})
+    machines = {target.name.split(",")[0] for target in targets}
+    print(f"{len(machines)} targets by {len(compilers)} compilers: {', '.join(compilers)}")
     print(f"alone: {passed} passed, {failed} failed, {len(skipped)} skipped")
     return bool(failed)
 
