@@ -20,6 +20,7 @@ PLACES = [
     ("CHANGELOG.md", r"^## \[(\d[^\]]*)\]"),
     ("library.json", r'^    "version": "(.*)"'),
     ("tools/packages/arduino/library.properties", r"^version=(.*)"),
+    ("tools/packages/vcpkg/vcpkg.json", r'^  "version": "(.*)"'),
     ("tools/packages/esp_idf/idf_component.yml", r'^version: "(.*)"'),
 ]
 

@@ -13,7 +13,8 @@ import tempfile
 
 import packing
 
-PACKAGES = ("amalgamation", "cmake", "platformio", "arduino", "esp_idf", "zephyr", "debian", "conan", "windows")
+PACKAGES = ("amalgamation", "cmake", "platformio", "arduino", "esp_idf", "zephyr", "cmsis_pack", "vcpkg", "conan",
+            "debian", "windows", "wheels")
 
 
 def try_package(name, archives):

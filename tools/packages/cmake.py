@@ -22,7 +22,7 @@ FetchContent_MakeAvailable(rlvc)"""
 def pack(folder):
     made = folder / f"rlvc-{packing.VERSION}"
     packing.copy_project(made)
-    return packing.pack_tar(made, folder / f"{made.name}.tar.gz")
+    return packing.pack_tar(made, folder / f"rlvc-source-{packing.VERSION}.tar.gz")
 
 
 def consume(folder, name, cmake, use, target, *options):

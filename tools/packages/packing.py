@@ -2,6 +2,7 @@
 """What the scripts of the packages share: the version, copies of sources, commands, and the row of cells that each
 package must learn."""
 
+import gzip
 import pathlib
 import re
 import shutil
@@ -14,6 +15,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "tools/packages"
 VERSION = re.search(r'RLVC_VERSION "(.*)"', (ROOT / "core/include/rlvc/rlvc.h").read_text(encoding="utf-8"))[1]
 ROW = ROOT / "tests/targets/row.c"
+EMULATED_M3 = ("qemu-system-arm", "-M", "mps2-an385", "-nographic", "-monitor", "none", "-serial", "none", "-chardev",
+               "stdio,id=s0", "-semihosting-config", "enable=on,target=native,chardev=s0", "-kernel")
 SUMMARY = "Reinforcement learning of classes: a small decision tree, learnt from rewards in fixed memory"
 
 
@@ -68,32 +71,35 @@ def copy_project(folder):
 
 # ---------------------------------------------------------------------------------------- archives
 
-def pack_zip(folder, archive):
-    """A zip whose one top folder is `folder`."""
+def pack_zip(folder, archive, within=None):
+    """A zip of a folder, which lies at `within` (its own name if that is None); of the same bytes whenever it is packed."""
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as packed:
         for path in sorted(folder.rglob("*")):
-            packed.write(path, path.relative_to(folder.parent))
+            inside = pathlib.PurePath(folder.name if within is None else within, path.relative_to(folder))
+            entry = zipfile.ZipInfo.from_file(path, inside)
+            entry.date_time, entry.compress_type = (1980, 1, 1, 0, 0, 0), zipfile.ZIP_DEFLATED
+            packed.writestr(entry, b"" if path.is_dir() else path.read_bytes())
     return archive
 
 
-def pack_tar(folder, archive):
-    with tarfile.open(archive, "w:gz") as packed:
-        packed.add(folder, folder.name)
-    return archive
+def pack_tar(folder, archive, within=None):
+    """Likewise a tar."""
 
+    def anonymous(entry):
+        entry.uid = entry.gid = entry.mtime = 0
+        entry.uname = entry.gname = ""
+        return entry
 
-def pack_tar_flat(folder, archive):
-    """A tar without a top folder."""
-    with tarfile.open(archive, "w:gz") as packed:
-        for path in sorted(folder.iterdir()):
-            packed.add(path, path.name)
+    with (open(archive, "wb") as file, gzip.GzipFile("", "wb", fileobj=file, mtime=0) as compressed,
+          tarfile.open(fileobj=compressed, mode="w") as packed):
+        packed.add(folder, folder.name if within is None else within, filter=anonymous)
     return archive
 
 
 def unpack(archive, folder):
     """The one folder that an archive holds, or `folder` if it holds more."""
     folder.mkdir(parents=True)
-    if archive.suffix == ".zip":
+    if archive.suffix in (".zip", ".pack"):
         with zipfile.ZipFile(archive) as packed:
             packed.extractall(folder)
     else:

@@ -44,8 +44,6 @@ target_link_libraries(app PRIVATE rlvc)
 target_link_options(app PRIVATE -Wl,--defsym=__ram_size=0x10000)
 add_subdirectory({module}/{sample} sample)
 """
-EMULATOR = ("qemu-system-arm", "-M", "mps2-an385", "-nographic", "-monitor", "none", "-serial", "none", "-chardev",
-            "stdio,id=s0", "-semihosting-config", "enable=on,target=native,chardev=s0", "-kernel")
 
 
 def pack(folder):
@@ -87,7 +85,7 @@ def read_options(file):
 
 
 def check(archive, folder):
-    packing.tool(EMULATOR[0])
+    packing.tool(packing.EMULATED_M3[0])
     packing.tool("arm-none-eabi-gcc")
     module = in_a_workspace(packing.unpack(archive, folder / "elsewhere"), folder)
     said = dict(re.findall(r"^ *(?:- )?(\w+): *(\S+)$", (module / "zephyr/module.yml").read_text(encoding="utf-8"),
@@ -102,5 +100,5 @@ def check(archive, folder):
     packing.run("cmake", "-G", "Ninja", "-S", place, "-B", place / "build", f"-DCMAKE_TOOLCHAIN_FILE={toolchain}",
                 f"-DZephyr_DIR={place / 'cmake'}")
     packing.run("cmake", "--build", place / "build")
-    packing.expect_row(packing.run(*EMULATOR, place / "build/app.elf"), folder)
+    packing.expect_row(packing.run(*packing.EMULATED_M3, place / "build/app.elf"), folder)
     return "found by west, its options read by Kconfig, its sample learnt on an emulated Cortex-M3 (Zephyr cannot be had)"
