@@ -10,76 +10,30 @@
 #include "block.h"
 #include "plan/planner_state.h"
 #include "rlvc/thresholds.h"
-#include "slider.h"
+#include "slider_player.h"
 #include <math.h>
-#include <string.h>
 
 static uint64_t memory[40000], other_memory[40000];
 
 static rlvc_planner_config small_config(void) {
-    rlvc_planner_config config;
-    assert_int_equal(rlvc_planner_default(&config, SLIDER_COMPONENTS, SLIDER_ACTIONS), RLVC_OK);
+    rlvc_planner_config config = slider_config();
     config.sample = 500;
-    config.model_leaves = 8;
-    config.random = 150;
     config.candidates = 150;
     config.patience = 60;
     return config;
 }
 
 static rlvc_planner *make(const rlvc_planner_config *config, uint64_t *block) {
-    rlvc_planner *planner;
-    size_t bytes;
-    assert_int_equal(rlvc_planner_size(config, &bytes), RLVC_OK);
-    assert_true(bytes <= sizeof memory);
-    assert_int_equal(rlvc_planner_init(config, block, bytes, &planner), RLVC_OK);
+    return make_in(config, block, sizeof memory);
+}
+
+/* @return a planner of the small configuration after so many interactions. */
+static rlvc_planner *play_anew(player *p, uint32_t seed, uint32_t interactions) {
+    rlvc_planner_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    start(p, planner, seed);
+    play(p, interactions);
     return planner;
-}
-
-/* A player of the slider, who learns after each episode. */
-typedef struct player {
-    rlvc_planner *planner;
-    rlvc_rng rng;
-    slider world;
-    uint32_t budget; /* of a slice; 0: all at once */
-    uint64_t work;
-} player;
-
-static void reset(player *p) {
-    slider_reset(&p->world, &p->rng);
-    assert_int_equal(rlvc_planner_begin(p->planner, p->world.s), RLVC_OK);
-}
-
-static void start(player *p, rlvc_planner *planner, uint32_t seed) {
-    memset(p, 0, sizeof *p);
-    p->planner = planner;
-    rlvc_rng_seed(&p->rng, seed);
-    reset(p);
-}
-
-static void learn(player *p) {
-    rlvc_progress progress;
-    do {
-        uint32_t budget = p->budget ? p->budget : RLVC_BUDGET_UNBOUNDED;
-        assert_int_equal(rlvc_planner_learn(p->planner, budget, &progress), RLVC_OK);
-        assert_true(progress.work <= budget);
-        p->work += progress.work;
-    } while (!progress.done);
-}
-
-static void play(player *p, uint32_t interactions) {
-    for (uint32_t i = 0; i < interactions; i++) {
-        uint32_t action;
-        float reward;
-        assert_int_equal(rlvc_planner_act(p->planner, &action), RLVC_OK);
-        uint8_t end = slider_step(&p->world, action, &reward);
-        assert_int_equal(rlvc_planner_observe(p->planner, action, reward, p->world.s, end),
-                         RLVC_OK);
-        if (end != RLVC_GOES_ON) {
-            learn(p);
-            reset(p);
-        }
-    }
 }
 
 /* What the learnt policy earns in an episode. */
@@ -230,19 +184,16 @@ static void test_learning_while_acting(void **state) {
 static uint32_t end_episode(player *p) {
     assert_int_equal(rlvc_planner_observe(p->planner, 0, 1.0f, p->world.s, RLVC_TRUNCATED),
                      RLVC_OK);
-    learn(p);
-    reset(p);
+    learn(p->planner);
+    begin(p);
     return p->planner->searches;
 }
 
 /* After searches without gain the next one waits, but not for ever. */
 static void test_searches_pause(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
     player p;
-    start(&p, planner, 5);
-    play(&p, 900);
+    rlvc_planner *planner = play_anew(&p, 5, 900);
     uint32_t searches = planner->searches;
     planner->gainful = 0;
     planner->fitted = planner->experience.total;
@@ -261,11 +212,8 @@ static void test_searches_pause(void **state) {
  */
 static void test_a_long_exploration(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
     player p;
-    start(&p, planner, 5);
-    play(&p, 300);
+    rlvc_planner *planner = play_anew(&p, 5, 300);
     planner->acting.why = RLVC_PLANNER_EXPLORE;
     planner->steps = 400;
     planner->new_cells = 2;
@@ -430,11 +378,8 @@ static void test_nothing_to_learn_is_said(void **state) {
 /* Returns that are all equally good leave the model nothing to predict. */
 static void test_equally_good_is_learnt(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
     player p;
-    start(&p, planner, 1);
-    play(&p, 900);
+    rlvc_planner *planner = play_anew(&p, 1, 900);
     assert_int_equal(stats_of(planner).verdict, RLVC_PLANNER_LEARNT);
     float score = stats_of(planner).score;
     planner->archive.beta = 0.05f;
@@ -676,11 +621,8 @@ static void test_no_policy(void **state) {
 /* A policy that has left the archive while it acted gets no return of another's. */
 static void test_a_return_of_one_that_left(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
     player p;
-    start(&p, planner, 1);
-    play(&p, 900);
+    rlvc_planner *planner = play_anew(&p, 1, 900);
     rlvc_archive *archive = &planner->archive;
     assert_true(archive->count > 0);
     float s[2] = {0.0f, 0.0f};

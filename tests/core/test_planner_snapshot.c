@@ -12,8 +12,7 @@
 #include "block.h"
 #include "plan/planner_state.h"
 #include "store/planner_check.h"
-#include "slider.h"
-#include <string.h>
+#include "slider_player.h"
 
 #define SLOT_MOST 131072u
 #define HEAD_BYTES 16u
@@ -48,12 +47,9 @@ static int shelf_write(void *ctx, uint32_t offset, const void *buffer, uint32_t 
 }
 
 static rlvc_planner_config small_config(void) {
-    rlvc_planner_config config;
-    assert_int_equal(rlvc_planner_default(&config, SLIDER_COMPONENTS, SLIDER_ACTIONS), RLVC_OK);
+    rlvc_planner_config config = slider_config();
     config.capacity = 700;
     config.sample = 300;
-    config.model_leaves = 8;
-    config.random = 150;
     config.candidates = 60;
     config.patience = 40;
     return config;
@@ -68,9 +64,7 @@ static rlvc_store empty_store(shelf *of, const rlvc_planner_config *config) {
 }
 
 static rlvc_planner *make(const rlvc_planner_config *config, uint64_t *block) {
-    rlvc_planner *planner;
-    assert_int_equal(rlvc_planner_init(config, block, sizeof memory, &planner), RLVC_OK);
-    return planner;
+    return make_in(config, block, sizeof memory);
 }
 
 static rlvc_status load_into(const rlvc_planner_config *config, const rlvc_store *store,
@@ -79,46 +73,6 @@ static rlvc_status load_into(const rlvc_planner_config *config, const rlvc_store
         rlvc_planner_load(config, other_memory, sizeof other_memory, store, planner);
     assert_true((status == RLVC_OK) == (*planner != NULL));
     return status;
-}
-
-typedef struct player {
-    rlvc_planner *planner;
-    rlvc_rng rng;
-    slider world;
-} player;
-
-static void learn(rlvc_planner *planner) {
-    rlvc_progress progress;
-    do
-        assert_int_equal(rlvc_planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
-    while (!progress.done);
-}
-
-static void begin(player *p) {
-    slider_reset(&p->world, &p->rng);
-    assert_int_equal(rlvc_planner_begin(p->planner, p->world.s), RLVC_OK);
-}
-
-static void start(player *p, rlvc_planner *planner, uint32_t seed) {
-    memset(p, 0, sizeof *p);
-    p->planner = planner;
-    rlvc_rng_seed(&p->rng, seed);
-    begin(p);
-}
-
-static void play(player *p, uint32_t interactions) {
-    for (uint32_t i = 0; i < interactions; i++) {
-        uint32_t action;
-        float reward;
-        assert_int_equal(rlvc_planner_act(p->planner, &action), RLVC_OK);
-        uint8_t end = slider_step(&p->world, action, &reward);
-        assert_int_equal(rlvc_planner_observe(p->planner, action, reward, p->world.s, end),
-                         RLVC_OK);
-        if (end != RLVC_GOES_ON) {
-            learn(p->planner);
-            begin(p);
-        }
-    }
 }
 
 /* The snapshot of a planner, and its length. */

@@ -11,39 +11,14 @@
 
 #include <cmocka.h>
 
-#include "base/rng.h"
 #include "rlvc/agent.h"
-#include "rlvc/spatial.h"
 
 #include <math.h>
 
-#define PERCEPTS 80u
 #define POINTS_MAX 6u
 #define DIMENSIONS_MAX 33u
-
-typedef struct fixture {
-    rlvc_spatial s;
-    rlvc_domain domain;
-    rlvc_samples samples;
-    rlvc_sample sample[PERCEPTS];
-    float percepts[PERCEPTS * (1u + POINTS_MAX * (DIMENSIONS_MAX + 2u))];
-    float features[130u * (4u + 2u * DIMENSIONS_MAX)];
-    rlvc_rng rng;
-} fixture;
-
-static fixture f;
-
-static unsigned char *percept(uint32_t i) {
-    return (unsigned char *)f.percepts + (size_t)i * f.domain.percept_bytes;
-}
-
-static unsigned char *feature(uint32_t j) {
-    return (unsigned char *)f.features + (size_t)j * f.domain.feature_bytes;
-}
-
-static uint32_t vector_bytes(void) {
-    return RLVC_DESCRIPTORS_VECTOR_BYTES(f.s.vectors.dimensions, f.s.vectors.form);
-}
+#define FEATURES_MAX 130u
+#include "vectors.h"
 
 /* A feature's scale and displacement; its vectors. */
 static unsigned char *place_of(uint32_t j) {
@@ -56,33 +31,6 @@ static unsigned char *first_of(uint32_t j) {
 
 static unsigned char *second_of(uint32_t j) {
     return first_of(j) + vector_bytes();
-}
-
-static void put_number(unsigned char *vectors, uint32_t i, int value) {
-    const float number = (float)value;
-    const int8_t byte = (int8_t)value;
-    if (f.s.vectors.form == RLVC_DESCRIPTORS_INT8)
-        memcpy(vectors + i, &byte, 1);
-    else
-        memcpy(vectors + 4u * i, &number, sizeof number);
-}
-
-static double get_number(const unsigned char *vectors, uint32_t i) {
-    float number;
-    if (f.s.vectors.form == RLVC_DESCRIPTORS_INT8)
-        return (double)(int8_t)vectors[i];
-    memcpy(&number, vectors + 4u * i, sizeof number);
-    return (double)number;
-}
-
-static uint32_t count_of(uint32_t i) {
-    uint32_t count;
-    memcpy(&count, percept(i), sizeof count);
-    return count;
-}
-
-static void set_count(uint32_t i, uint32_t count) {
-    memcpy(percept(i), &count, sizeof count);
 }
 
 static unsigned char *places_of(unsigned char *p) {
@@ -99,26 +47,18 @@ static void set_place(unsigned char *p, uint32_t point, int x, int y, int turn) 
         memcpy(places_of(p) + 4u * f.s.vectors.points + 2u * point, directions[turn], 2);
 }
 
-/* Percepts of 0 to P vectors of small whole numbers, on a grid of 10 pixels. */
+/* The points lie on a grid of 10 pixels. */
 static void open_fixture(uint32_t points, uint32_t dimensions, uint32_t form, uint32_t directed,
                          float margin) {
     memset(&f, 0, sizeof f);
-    rlvc_rng_seed(&f.rng, points + dimensions);
     assert_int_equal(rlvc_spatial_default(&f.s, points, dimensions, form, directed, 4.0f), RLVC_OK);
     f.s.vectors.margin = margin;
     assert_int_equal(rlvc_spatial_domain(&f.s, &f.domain), RLVC_OK);
-    assert_true(f.domain.percept_bytes * PERCEPTS <= sizeof f.percepts);
-    for (uint32_t i = 0; i < PERCEPTS; i++) {
-        set_count(i, rlvc_rng_below(&f.rng, points + 1u));
-        for (uint32_t k = 0; k < points * dimensions; k++)
-            put_number(percept(i) + 4u, k, (int)rlvc_rng_below(&f.rng, 5) - 2);
+    draw_percepts();
+    for (uint32_t i = 0; i < PERCEPTS; i++)
         for (uint32_t k = 0; k < points; k++)
             set_place(percept(i), k, 10 * (int)rlvc_rng_below(&f.rng, 4) - 20,
                       10 * (int)rlvc_rng_below(&f.rng, 4), (int)rlvc_rng_below(&f.rng, 4));
-        f.sample[i] = (rlvc_sample){i / 7u, (i * 31u) % PERCEPTS};
-    }
-    f.samples =
-        (rlvc_samples){(unsigned char *)f.percepts, f.sample, f.domain.percept_bytes, PERCEPTS};
 }
 
 static void set_feature(uint32_t j, float radius, float scale, float x, float y) {
@@ -131,10 +71,10 @@ static void make_features(uint32_t m) {
     for (uint32_t j = 0; j < m; j++) {
         memset(feature(j), 0, f.domain.feature_bytes);
         for (uint32_t k = 0; k < f.s.vectors.dimensions; k++) {
-            put_number(first_of(j), k, (int)rlvc_rng_below(&f.rng, 5) - 2);
-            put_number(second_of(j), k, (int)rlvc_rng_below(&f.rng, 5) - 2);
+            set_number(first_of(j), k, (int)rlvc_rng_below(&f.rng, 5) - 2);
+            set_number(second_of(j), k, (int)rlvc_rng_below(&f.rng, 5) - 2);
         }
-        if (j % 3u == 0 && count_of(j) > 1u) { /* two of some percept */
+        if (j % 3u == 0 && count_of(percept(j)) > 1u) { /* two of some percept */
             memcpy(first_of(j), percept(j) + 4u, vector_bytes());
             memcpy(second_of(j), percept(j) + 4u + vector_bytes(), vector_bytes());
         }
@@ -142,16 +82,6 @@ static void make_features(uint32_t m) {
                     j % 4u == 2u ? 0.0f : 0.25f, 10.0f * (float)rlvc_rng_below(&f.rng, 3),
                     10.0f * (float)rlvc_rng_below(&f.rng, 3) - 10.0f);
     }
-}
-
-static double squared_of(const unsigned char *p, uint32_t point, const unsigned char *vector) {
-    const uint32_t n = f.s.vectors.dimensions;
-    double sum = 0.0;
-    for (uint32_t k = 0; k < n; k++) {
-        const double difference = get_number(p + 4u, point * n + k) - get_number(vector, k);
-        sum += difference * difference;
-    }
-    return sum;
 }
 
 static double misplaced(unsigned char *p, uint32_t i, uint32_t j, const float place[3]) {
@@ -179,9 +109,9 @@ static double distance_by_definition(uint32_t at, uint32_t j) {
     double least = HUGE_VAL;
     float place[3];
     memcpy(place, place_of(j), sizeof place);
-    for (uint32_t a = 0; a < count_of(at); a++) {
+    for (uint32_t a = 0; a < count_of(percept(at)); a++) {
         const double first = squared_of(p, a, first_of(j));
-        for (uint32_t b = 0; place[0] > 0.0f && b < count_of(at); b++)
+        for (uint32_t b = 0; place[0] > 0.0f && b < count_of(percept(at)); b++)
             if (a != b)
                 least = fmin(least, fmax(fmax(first, squared_of(p, b, second_of(j))),
                                          misplaced(p, a, b, place)));
@@ -234,8 +164,8 @@ static int comes_from_a_percept(uint32_t j) {
     const float squared = place[1] * place[1] + place[2] * place[2];
     const float error = fmaxf(16.0f, 0.35f * 0.35f * squared);
     for (uint32_t i = 0; i < PERCEPTS; i++)
-        for (uint32_t a = 0; a < count_of(i); a++)
-            for (uint32_t b = 0; b < count_of(i); b++)
+        for (uint32_t a = 0; a < count_of(percept(i)); a++)
+            for (uint32_t b = 0; b < count_of(percept(i)); b++)
                 if (a != b && squared > 36.0f &&
                     memcmp(first_of(j), percept(i) + 4u + a * vector_bytes(), vector_bytes()) ==
                         0 &&
@@ -303,7 +233,7 @@ static void test_pairs_that_share_a_point(void **state) {
     for (uint32_t i = 0; i < PERCEPTS; i++) {
         set_count(i, 2);
         for (uint32_t k = 0; k < 2u; k++) {
-            put_number(percept(i) + 4u, k, k ? (int)(i % 2u) : 9);
+            set_number(percept(i) + 4u, k, k ? (int)(i % 2u) : 9);
             set_place(percept(i), k, (i % 4u < 2u ? 20 : -20) * (int)k, 0, 0);
         }
     }
@@ -344,7 +274,7 @@ static void test_nearest(void **state) {
             const int is_pair = rlvc_spatial_is_pair(&f.s, feature(j));
             const rlvc_status status =
                 rlvc_spatial_nearest(&f.s, percept(i), feature(j), point, &squared);
-            if (count_of(i) < (is_pair ? 2u : 1u)) {
+            if (count_of(percept(i)) < (is_pair ? 2u : 1u)) {
                 assert_int_equal(status, RLVC_E_RANGE);
                 continue;
             }
@@ -471,7 +401,7 @@ static void learn_which_is_left(uint32_t directed) {
         set_count(0, 2);
         for (uint32_t k = 0; k < 16u; k++) {
             const uint32_t thing = k / 8u == first ? left : 1u - left;
-            put_number(percept(0) + 4u, k,
+            set_number(percept(0) + 4u, k,
                        (k % 8u == thing ? 40 : 0) + (int)rlvc_rng_below(&f.rng, 2));
         }
         for (uint32_t k = 0; k < 2u; k++) { /* the left one, then the right one, 40 pixels on */

@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-import abc
 import ctypes
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
@@ -17,12 +15,13 @@ from .. import _native, files
 from ..checks import real, whole
 from ..errors import ConfigError, MazeError
 from .maze import Maze
+from .moving import Moving
 
 _Observation = TypeVar("_Observation")
 
 
-class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
-    """Base class of the environments: a maze with an agent in it.
+class Gridworld(Moving[_Observation], Generic[_Observation]):
+    """Base class of the mazes: an agent in a maze.
 
     A move into the exit earns 100 and ends the episode; any other earns -1. An episode starts at a
     random free cell.
@@ -37,6 +36,7 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
     def __init__(
         self, maze: str | Path | None, distractors: int, slip: float, render_mode: str | None
     ) -> None:
+        super().__init__()
         if isinstance(maze, Path):
             try:
                 maze = files.read(maze).decode()
@@ -50,9 +50,8 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         self.render_mode = render_mode
         if self.maze.bits(self.distractors) > _native.BITS_MAX:
             raise ConfigError(f"distractors: {distractors}: more than {_native.BITS_MAX} bits")
-        self.action_space = spaces.Discrete(4)
         self._world = _native.Gridworld()
-        self._over = True
+        self._generator: np.random.Generator | None = None  # of the present sequence
         self._seed(0)
 
     def _seed(self, seed: int) -> None:
@@ -66,68 +65,22 @@ class Gridworld(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
         if status != 0:
             raise ConfigError(f"slip: {self.slip} is not in [0, 1]")
 
-    @abc.abstractmethod
-    def _observe(self) -> _Observation:
-        """Return the observation in the agent's cell."""
-
     def _info(self) -> dict[str, Any]:
         return {"x": self._world.cell % self.maze.width, "y": self._world.cell // self.maze.width}
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[_Observation, dict[str, Any]]:
-        """Start an episode at a random free cell.
-
-        Parameters
-        ----------
-        seed : int or None
-            Seed of all random numbers from now on. None: continue the sequence.
-        options : dict or None
-            Ignored.
-
-        Returns
-        -------
-        tuple
-            The observation, and {"x", "y"}: the agent's cell.
-        """
-        fresh = self._np_random is None
-        super().reset(seed=seed)
-        if seed is not None or fresh:
-            self._seed(int(self.np_random.integers(2**32)))
-        else:
+    def _start(self) -> None:
+        if self.np_random is self._generator:
             _native.call.rlvc_shim_world_reset(ctypes.byref(self._world))
-        self._over = False
-        return self._observe(), self._info()
+        else:
+            self._generator = self.np_random
+            self._seed(int(self.np_random.integers(2**32)))
 
-    def step(self, action: Any) -> tuple[_Observation, float, bool, bool, dict[str, Any]]:
-        """Move: 0 up, 1 right, 2 down, 3 left.
-
-        Parameters
-        ----------
-        action : int
-
-        Returns
-        -------
-        tuple
-            The observation, the reward, terminated, truncated (always False), and the agent's cell.
-
-        Raises
-        ------
-        gymnasium.error.InvalidAction
-            The action does not exist.
-        gymnasium.error.ResetNeeded
-            The episode is over.
-        """
-        if not self.action_space.contains(action):
-            raise gymnasium.error.InvalidAction(f"{action!r} is not in [0, 3]")
-        if self._over:
-            raise gymnasium.error.ResetNeeded("call reset first")
+    def _move(self, action: int) -> tuple[float, bool, bool]:
         reward = ctypes.c_float()
         status = _native.call.rlvc_shim_world_step(
-            ctypes.byref(self._world), int(action), ctypes.byref(reward)
+            ctypes.byref(self._world), action, ctypes.byref(reward)
         )
-        self._over = status == 1
-        return self._observe(), float(reward.value), self._over, False, self._info()
+        return float(reward.value), status == 1, False
 
     def render(self) -> str | None:
         """Return the maze as text, with ``@`` for the agent."""

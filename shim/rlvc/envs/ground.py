@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
-import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
 from ..checks import real, whole
 from ..errors import ConfigError, PictureError
+from .moving import Moving
 
 _Picture: TypeAlias = "npt.NDArray[np.uint8]"
 _MOVES = np.array([(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)])
@@ -31,7 +31,7 @@ def _drawn(width: int = 480, height: int = 360) -> _Picture:
     return ground.astype(np.uint8)
 
 
-class GroundView(gymnasium.Env[_Picture, np.int64]):
+class GroundView(Moving[_Picture]):
     """A camera looks down on a photograph, moves over it and searches a goal.
 
     An observation is uint8 [view, view, 3]: the part of the photograph below the camera, whose
@@ -100,6 +100,7 @@ class GroundView(gymnasium.Env[_Picture, np.int64]):
         walls: Sequence[tuple[float, float, float, float]] = (),
         limit: int = 60,
     ) -> None:
+        super().__init__()
         self.picture = _checked(_drawn() if picture is None else picture)
         self.view = whole("view", view, 8, 1024)
         self.limit = whole("limit", limit, 1, 2**31)
@@ -120,9 +121,8 @@ class GroundView(gymnasium.Env[_Picture, np.int64]):
         shares = [_within("goal", share, 0, 1) for share in goal]
         self.goal = self.low + np.array(shares) * (self.high - self.low)
         self.observation_space = spaces.Box(0, 255, (self.view, self.view, 3), np.uint8)
-        self.action_space = spaces.Discrete(4)
         self.position = self.low.copy()
-        self._moves = -1
+        self._moves = 0
 
     def observe(self) -> _Picture:
         """Return what the camera sees at its position, as in :meth:`step`.
@@ -146,6 +146,9 @@ class GroundView(gymnasium.Env[_Picture, np.int64]):
         seen += self.noise * random.standard_normal(seen.shape, np.float32)
         return np.clip(seen, 0, 255).astype(np.uint8)
 
+    def _observe(self) -> _Picture:
+        return self.observe()
+
     def _blocked(self, position: npt.NDArray[np.float64]) -> bool:
         x, y = position
         inside = any(a <= x <= c and b <= y <= d for a, b, c, d in self.walls)
@@ -154,70 +157,25 @@ class GroundView(gymnasium.Env[_Picture, np.int64]):
     def _info(self) -> dict[str, Any]:
         return {"position": self.position.copy()}
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[_Picture, dict[str, Any]]:
-        """Start an episode at a random position.
-
-        Parameters
-        ----------
-        seed : int or None
-            Seed of all random numbers from now on. None: continue the sequence.
-        options : dict or None
-            Ignored.
-
-        Returns
-        -------
-        tuple
-            The observation, and {"position"}: x and y in pixels.
-
-        Raises
-        ------
-        ConfigError
-            Goal and walls leave no place to start.
-        """
-        super().reset(seed=seed)
+    def _start(self) -> None:
         for _ in range(10_000):
             self.position = self.np_random.uniform(self.low, self.high)
             far = np.hypot(*(self.position - self.goal)) > _SPREAD * self.radius
             if far and not self._blocked(self.position):
                 self._moves = 0
-                return self.observe(), self._info()
+                return
         raise ConfigError("goal and walls leave no place to start an episode")
 
-    def step(self, action: Any) -> tuple[_Picture, float, bool, bool, dict[str, Any]]:
-        """Move: 0 up, 1 right, 2 down, 3 left on the photograph. A wall or the edge stops the move.
-
-        Parameters
-        ----------
-        action : int
-
-        Returns
-        -------
-        tuple
-            The observation, the reward, terminated, truncated, and the position.
-
-        Raises
-        ------
-        gymnasium.error.InvalidAction
-            The action does not exist.
-        gymnasium.error.ResetNeeded
-            The episode is over.
-        """
-        if not self.action_space.contains(action):
-            raise gymnasium.error.InvalidAction(f"{action!r} is not in [0, 3]")
-        if not 0 <= self._moves < self.limit:
-            raise gymnasium.error.ResetNeeded("call reset first")
+    def _move(self, action: int) -> tuple[float, bool, bool]:
         error = self.slip * self.np_random.standard_normal(2)
-        moved = self.position + self.stride * (_MOVES[int(action)] + error)
+        moved = self.position + self.stride * (_MOVES[action] + error)
         moved = np.clip(moved, self.low, self.high)
         way = moved - self.position
         if not any(self._blocked(self.position + share * way) for share in _WAY):
             self.position = moved
         arrived = bool(np.hypot(*(self.position - self.goal)) < self.radius)
-        self._moves = self.limit if arrived else self._moves + 1
-        truncated = not arrived and self._moves >= self.limit
-        return self.observe(), 100.0 if arrived else -1.0, arrived, truncated, self._info()
+        self._moves += 1
+        return 100.0 if arrived else -1.0, arrived, not arrived and self._moves >= self.limit
 
     def towards(self) -> int:
         """Return the move along the longer way to the goal, walls aside: a yardstick for learners.
