@@ -438,6 +438,77 @@ static void test_contradictions(void **state) {
     }
 }
 
+static void test_missing_arrays(void **state) {
+    (void)state;
+    configure(1);
+    play(200, 1, 0.0f);
+    const void *none = NULL;
+    for (uint32_t i = 0; i < 5u; i++) {
+        count(3, 1u << 20, 1);
+        const void *array[] = {&counts.row, &counts.with, &counts.feature, &counts.tested,
+                               &counts.pair};
+        memcpy((void *)(uintptr_t)array[i], &none, sizeof none);
+        expect_refused(RLVC_E_NULL);
+    }
+    count(0, 1u << 20, 1);
+    counts.tested = NULL; /* not needed */
+    counts.pair = NULL;
+    counts.pairs = 0;
+    rlvc_progress progress;
+    rlvc_agent *agent = agent_in(ring, sizeof ring);
+    assert_int_equal(round_of(agent, &progress), RLVC_OK);
+}
+
+/* A feature that the domain does not vouch for would become one of the tree. */
+static void test_strange_features(void **state) {
+    static unsigned char strange[BITS * RLVC_BITS_FEATURE_BYTES];
+    (void)state;
+    configure(1);
+    play(200, 1, 0.0f);
+    for (uint32_t f = 0; f < BITS; f++) {
+        rlvc_progress progress;
+        count(0, 1u << 20, 1);
+        memcpy(strange, counts.feature, sizeof strange);
+        strange[f * RLVC_BITS_FEATURE_BYTES] = BITS;
+        counts.feature = strange;
+        rlvc_agent *agent = agent_in(ring, sizeof ring);
+        assert_int_equal(round_of(agent, &progress), RLVC_E_RANGE);
+        assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
+        p.domain.check_feature = NULL; /* an own domain's may be anything */
+        agent = agent_in(ring, sizeof ring);
+        assert_int_equal(round_of(agent, &progress), RLVC_OK);
+        configure(1);
+    }
+}
+
+/* Sums that no rewards have: values stay finite. */
+static void test_sums_of_nothing(void **state) {
+    static const uint64_t words[][RLVC_EXACT_SUM_WORDS] = {
+        {UINT64_MAX, UINT64_MAX, UINT64_MAX, INT64_MAX},
+        {0, 0, 0, UINT64_C(1) << 63},
+        {1, 2, 3, UINT64_C(1) << 40},
+        {7, 7, 7, UINT64_MAX - (UINT64_C(1) << 40)},
+    };
+    (void)state;
+    for (uint32_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        configure(1);
+        play(200, 1, 0.0f);
+        count(3, 1u << 20, 1);
+        for (uint32_t k = 0; k < counts.pairs; k++)
+            memcpy(reward[k].word, words[i], sizeof words[i]);
+        counts.reward = reward;
+        rlvc_progress progress;
+        rlvc_agent *agent = agent_in(ring, sizeof ring);
+        assert_int_equal(round_of(agent, &progress), RLVC_OK);
+        assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
+        for (uint32_t a = 0; a < GRIDWORLD_ACTIONS; a++) {
+            float q;
+            assert_int_equal(rlvc_q(agent, 0, a, &q, NULL), RLVC_OK);
+            assert_true(q >= -1e28f && q <= 1e28f);
+        }
+    }
+}
+
 static void test_refusals(void **state) {
     (void)state;
     rlvc_progress progress;
@@ -550,6 +621,9 @@ int main(void) {
         cmocka_unit_test(test_many),
         cmocka_unit_test(test_contradictions),
         cmocka_unit_test(test_more_than_is_said),
+        cmocka_unit_test(test_missing_arrays),
+        cmocka_unit_test(test_strange_features),
+        cmocka_unit_test(test_sums_of_nothing),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_follow_is_needed),
         cmocka_unit_test(test_reentered),

@@ -5,6 +5,7 @@ Clusters listen on this machine alone and have a home of their own. RLVC_FLEET_L
 interactions.
 """
 
+import json
 import multiprocessing
 import os
 import signal
@@ -19,7 +20,7 @@ import pytest
 import worlds
 
 import rlvc
-from rlvc.errors import ConfigError, CountError, LogError
+from rlvc.errors import ConfigError, CountError, Error, LogError
 
 pytest.importorskip("pyarrow")
 import pyarrow as pa
@@ -278,6 +279,38 @@ def test_a_driver_that_is_killed_goes_on(tmp_path, folder, expected):
     file.write_bytes(file.read_bytes()[:-100])
     with pytest.raises(LogError, match="damaged"):
         rlvc.fleet.learn_from(folder, checkpoint=file)
+
+
+def test_forged_checkpoints(tmp_path, folder):
+    """C would read beyond arrays that are shorter than they should be."""
+    file = tmp_path / "checkpoint"
+    rlvc.fleet.learn_from(folder, checkpoint=file, sample=0, reward_bits=8)
+    with np.load(file) as archive:
+        members = {name: archive[name] for name in archive.files}
+    head = json.loads(members["head"].tobytes())
+    head["progress"]["done"] = False
+
+    def learn(**changes):
+        said = {key: value for key, value in changes.items() if key in head}
+        arrays = members | {key: value for key, value in changes.items() if key not in head}
+        arrays["head"] = np.frombuffer(json.dumps(head | said).encode(), np.uint8)
+        np.savez(tmp_path / "forged.npz", **{k: v for k, v in arrays.items() if v is not None})
+        return rlvc.fleet.learn_from(folder, checkpoint=tmp_path / "forged.npz", sample=0, reward_bits=8)
+
+    assert learn().agent.classes > 1
+    forged = [
+        *({name: array[:-1]} for name, array in members.items() if name not in ("head", "snapshot", "sample", "pair", "row")),
+        *({name: np.asfortranarray(members[name][:, :2])} for name in ("present", "follow")),
+        *({name: None} for name in ("row", "present", "follow", "pair", "reward")),
+        {"present": members["present"].astype(np.uint32)}, {"row": members["row"]["count"]}, {"pair": np.uint64(3)},
+        {"present": members["present"] + np.uint64(10**9)}, {"reward": members["reward"][:, :2]},
+        {"sample": np.zeros(3, np.uint8)}, {"sample": np.zeros((3, 9), np.uint8)}, {"snapshot": np.zeros(9, np.uint8)},
+        {"cell": [70000]}, {"cell": [-1]}, {"cell": [1, 1]}, {"cell": list(range(99))}, {"cell": 3}, {"seen": [1, 2]},
+        {"seen": ["a", 2, []]}, {"progress": {"passes": "x", "rounds": 0, "splits": 0, "done": False}}, {"progress": []},
+    ]  # fmt: skip
+    for changes in forged:
+        with pytest.raises(Error):
+            learn(**changes)
 
 
 def _killed(folder, file, after):

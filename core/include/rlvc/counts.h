@@ -73,7 +73,7 @@ typedef struct rlvc_counts {
     const uint64_t *follow;
     const rlvc_count_pair *pair; /* [pairs]; needed if reward is not null */
     /* [pairs]: sums of rewards, for rows whose rewards are rounded. Optional: then they are sums of
-     * the rows' rewards. */
+     * the rows' rewards. A mean beyond 2 RLVC_REWARD_MAX counts as that. */
     const rlvc_exact_sum *reward;
     const void *feature;    /* [features] records of feature_bytes, in the order of candidates */
     const uint32_t *tested; /* [cell_bits]: which feature a bit of a cell stands for */
@@ -84,8 +84,8 @@ typedef struct rlvc_counts {
 } rlvc_counts;
 
 /* The memory that rlvc_learn_counts needs with the tree as it is. O(rows).
- * @return RLVC_OK; RLVC_E_RANGE: a number or a row of *counts; RLVC_E_MEMORY: no size_t holds it;
- *         *bytes is then 0. */
+ * @return RLVC_OK; RLVC_E_NULL: an array of *counts, too; RLVC_E_RANGE: a number or a row of
+ *         *counts; RLVC_E_MEMORY: no size_t holds it; *bytes is then 0. */
 RLVC_API rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts *counts,
                                       size_t *bytes);
 
@@ -102,9 +102,10 @@ RLVC_API rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts
  * @return RLVC_OK; RLVC_E_CONFIG: the criterion is not the residual, the solver not a batch solver,
  *         the score not the gain, config.dependence and config.successors are 1
  *         (counts know no order), or the domain
- *         has its own oracle; RLVC_E_BUSY: rlvc_learn is under way; RLVC_E_RANGE: *counts
- * contradicts itself, or counts too many; RLVC_E_MEMORY; RLVC_E_MISMATCH: the tree tests a feature
- * that is not in `tested`. */
+ *         has its own oracle; RLVC_E_BUSY: rlvc_learn is under way; RLVC_E_NULL: an array of
+ * *counts, too; RLVC_E_RANGE: *counts contradicts itself, or counts too many, or the domain does
+ * not vouch for a feature; RLVC_E_MEMORY; RLVC_E_MISMATCH: the tree tests a feature that is not in
+ * `tested`. */
 RLVC_API rlvc_status rlvc_learn_counts(rlvc_agent *agent, const rlvc_counts *counts, void *memory,
                                        size_t bytes, rlvc_progress *progress);
 

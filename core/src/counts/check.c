@@ -4,6 +4,11 @@
 
 #include "table.h"
 
+static int arrays_are_there(const rlvc_counts *counts) {
+    return counts->row && counts->with && counts->feature &&
+           (counts->tested || counts->cell_bits == 0) && (counts->pair || counts->pairs == 0);
+}
+
 static int numbers_fit(const rlvc_counts *counts) {
     if (counts->rows < 1u || counts->rows > INT32_MAX || counts->pairs > INT32_MAX)
         return 0;
@@ -51,20 +56,33 @@ static int follow_fits(const rlvc_counts *counts, uint32_t i) {
     return 1;
 }
 
-int rlvc_counts_check(const rlvc_agent *agent, const rlvc_counts *counts, uint64_t *total) {
+rlvc_status rlvc_counts_check(const rlvc_agent *agent, const rlvc_counts *counts, uint64_t *total) {
     *total = 0;
+    if (!arrays_are_there(counts))
+        return RLVC_E_NULL;
     if (!numbers_fit(counts) || (agent->config.successors && !counts->follow))
-        return 0;
+        return RLVC_E_RANGE;
     for (uint32_t i = 0; i < counts->rows; i++) {
         if (!row_fits(agent, counts, i) || (counts->follow && !follow_fits(counts, i)))
-            return 0;
+            return RLVC_E_RANGE;
         *total += counts->row[i].count;
         if (*total > RLVC_COUNT_MAX)
-            return 0;
+            return RLVC_E_RANGE;
     }
     for (uint32_t i = 0; i < counts->pairs; i++) {
         if (counts->pair[i].action >= agent->config.actions)
-            return 0;
+            return RLVC_E_RANGE;
     }
-    return 1;
+    return RLVC_OK;
+}
+
+int rlvc_counts_check_features(rlvc_agent *agent, const rlvc_counts *counts) {
+    const rlvc_domain *domain = &agent->domain;
+    const unsigned char *feature = counts->feature;
+    int sound = 1;
+    agent->busy = 1;
+    for (uint32_t f = 0; domain->check_feature && sound && f < counts->features; f++)
+        sound = !domain->check_feature(domain->ctx, feature + (size_t)f * domain->feature_bytes);
+    agent->busy = 0;
+    return sound;
 }

@@ -20,8 +20,9 @@ rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts *counts,
     rlvc_count_table table;
     uint64_t total;
     *bytes = 0;
-    if (!rlvc_counts_check(agent, counts, &total))
-        return RLVC_E_RANGE;
+    rlvc_status status = rlvc_counts_check(agent, counts, &total);
+    if (status != RLVC_OK)
+        return status;
     rlvc_count_table_carve(&table, &arena, agent, counts);
     if (arena.used > SIZE_MAX)
         return RLVC_E_MEMORY;
@@ -115,12 +116,15 @@ rlvc_status rlvc_learn_counts(rlvc_agent *agent, const rlvc_counts *counts, void
     if (agent->learner.phase != RLVC_PHASE_IDLE)
         return RLVC_E_BUSY;
     uint64_t total;
-    if (!rlvc_counts_check(agent, counts, &total))
+    rlvc_status status = rlvc_counts_check(agent, counts, &total);
+    if (status != RLVC_OK)
+        return status;
+    if (!rlvc_counts_check_features(agent, counts))
         return RLVC_E_RANGE;
     rlvc_arena arena = {NULL, 0};
     rlvc_count_table table;
     rlvc_count_table_carve(&table, &arena, agent, counts);
-    rlvc_status status = rlvc_arena_check(memory, bytes, (size_t)arena.used);
+    status = rlvc_arena_check(memory, bytes, (size_t)arena.used);
     if (status != RLVC_OK)
         return status;
     arena.base = memory;

@@ -45,6 +45,14 @@ static uint32_t pack(rlvc_count_table *table, uint32_t begin, uint32_t end, uint
     return packed;
 }
 
+/* The mean of the pair's rewards; of sums that no such rewards have, the nearest that is. */
+static float mean_reward(const rlvc_exact_sum *sum, rlvc_count size) {
+    const float most = 2.0f * RLVC_REWARD_MAX; /* a mean may be rounded up */
+    float mean = rlvc_exact_sum_float(sum) / (float)size;
+    mean = mean < most ? mean : most;
+    return mean > -most ? mean : -most;
+}
+
 void rlvc_count_model(rlvc_count_table *table, rlvc_agent *agent) {
     rlvc_values *values = &agent->values;
     size_t pairs = rlvc_values_pair(values, agent->tree.classes, 0);
@@ -59,7 +67,7 @@ void rlvc_count_model(rlvc_count_table *table, rlvc_agent *agent) {
         values->pair.reward[pair] = 0.0f;
         if (size > 0) {
             values->tried[pair] = rlvc_count_stored(size);
-            values->pair.reward[pair] = rlvc_exact_sum_float(&table->sum[pair]) / (float)size;
+            values->pair.reward[pair] = mean_reward(&table->sum[pair], size);
         }
         rlvc_count_table_sort(table, begin, end);
         packed = pack(table, begin, end, packed);

@@ -33,8 +33,12 @@ void rlvc_count_table_carve(rlvc_count_table *table, rlvc_arena *arena, const rl
                             const rlvc_counts *counts);
 
 /* Do the numbers of *counts fit together, and to the agent? O(rows features + pairs).
- * @param total becomes the number of all interactions */
-int rlvc_counts_check(const rlvc_agent *agent, const rlvc_counts *counts, uint64_t *total);
+ * @param total becomes the number of all interactions
+ * @return RLVC_OK; RLVC_E_NULL: an array is missing; RLVC_E_RANGE. */
+rlvc_status rlvc_counts_check(const rlvc_agent *agent, const rlvc_counts *counts, uint64_t *total);
+
+/* Does the domain vouch for each feature of *counts? O(features). */
+int rlvc_counts_check_features(rlvc_agent *agent, const rlvc_counts *counts);
 
 /* Finds the classes of all rows and pairs.
  * @return RLVC_OK; RLVC_E_MISMATCH: no bit of a cell tells a feature of the tree.

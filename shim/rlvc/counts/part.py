@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..errors import CountError
 
 ROW = np.dtype(_native.CountRow)
 PAIR = np.dtype(_native.CountPair)
@@ -77,6 +78,28 @@ class Part:
     def _arrays(self) -> list[npt.NDArray[Any]]:
         arrays = (self.row, self.present, self.follow, self.pair, self.reward)
         return [array for array in arrays if array is not None]
+
+    def check(self, question: Question) -> None:
+        """Raise CountError unless the arrays are those of a question: C relies on their shapes.
+
+        Parameters
+        ----------
+        question : Question
+        """
+        rows, pairs, features = len(self.row), len(self.pair), question.features
+        words = _native.EXACT_SUM_WORDS
+        wanted: dict[str, tuple[Any, tuple[int, ...]] | None] = {
+            "row": (ROW, (rows,)),
+            "present": (np.dtype(np.uint64), (rows, features)),
+            "follow": (np.dtype(np.uint64), (rows, 2, features)) if question.follow else None,
+            "pair": (PAIR, (pairs,)),
+            "reward": (np.dtype(np.uint64), (pairs, words)) if question.sums else None,
+        }
+        for name, expected in wanted.items():
+            array = getattr(self, name)
+            found = None if array is None else (array.dtype, array.shape)
+            if found != expected or (array is not None and not array.flags.c_contiguous):
+                raise CountError(f"{name}: {found}, expected {expected}")
 
     def digest(self) -> str:
         """Return a hash that is equal for equal counts."""

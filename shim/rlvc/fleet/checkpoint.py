@@ -11,19 +11,22 @@ import dataclasses
 import hashlib
 import io
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..counts.part import Part
-from ..counts.rounds import Progress
-from ..errors import ConfigError, LogError
+from ..checks import flag, whole
+from ..counts.part import Part, Question
+from ..counts.rounds import CELL_BITS_MAX, Progress
+from ..errors import ConfigError, CountError, LogError
 from ..files import read, replace
 from .counting import Seen
 from .sample import Sample
 
 _VERSION = 1
+_WHOLE = (0, 2**63 - 1)  # the range of counts
 
 
 @dataclasses.dataclass
@@ -94,7 +97,49 @@ def save(file: str | Path, made_from: str, state: State) -> None:
     replace(file, content.getvalue())
 
 
-def load(file: str | Path, made_from: str) -> State | None:
+def _check(sample: Any, cell: tuple[int, ...], question: Question) -> None:
+    """Raise CountError unless percepts and a cell are those of a question."""
+    percept_bytes = -(-question.features // 8)
+    if sample.dtype != np.uint8 or sample.ndim != 2 or sample.shape[1] not in (1, percept_bytes):
+        raise CountError(f"sample: {sample.dtype}{list(sample.shape)}")
+    if list(cell) != sorted(set(cell)) or len(cell) > CELL_BITS_MAX:
+        raise CountError(f"cell: {cell!r:.80}")
+    if cell and cell[-1] >= question.features:
+        raise CountError(f"cell: {cell[-1]} is not in [0, {question.features})")
+
+
+def _progress(passes: Any, rounds: Any, splits: Any, done: Any) -> Progress:
+    return Progress(
+        whole("passes", passes, *_WHOLE),
+        whole("rounds", rounds, *_WHOLE),
+        whole("splits", splits, *_WHOLE),
+        flag("done", done),
+    )
+
+
+def _state(
+    head: dict[str, Any], arrays: dict[str, Any], asked: Callable[[tuple[int, ...]], Question]
+) -> State:
+    """Make the state of a file's members, each of which is checked."""
+    snapshot, sample = arrays.pop("snapshot").tobytes(), arrays.pop("sample")
+    rows, size, skipped = head["seen"]
+    seen = Seen(
+        whole("seen", rows, *_WHOLE),
+        whole("seen", size, *_WHOLE),
+        [str(why) for why in skipped],
+        Sample(sample, max(1, len(sample))),
+    )
+    cell = tuple(whole("cell", feature, 0, _WHOLE[1]) for feature in head["cell"])
+    question = asked(cell)
+    _check(sample, cell, question)
+    part = Part(**({"follow": None, "reward": None} | arrays))
+    part.check(question)
+    return State(cell, part, snapshot, _progress(**head["progress"]), seen)
+
+
+def load(
+    file: str | Path, made_from: str, asked: Callable[[tuple[int, ...]], Question]
+) -> State | None:
     """Read a checkpoint, if there is one.
 
     Parameters
@@ -102,6 +147,8 @@ def load(file: str | Path, made_from: str) -> State | None:
     file : str or Path
     made_from : str
         A :func:`fingerprint`.
+    asked : callable
+        Of the features of a cell, returns what is counted.
 
     Raises
     ------
@@ -116,13 +163,8 @@ def load(file: str | Path, made_from: str) -> State | None:
         with np.load(io.BytesIO(read(file)), allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
         head = json.loads(arrays.pop("head").tobytes())
-        snapshot = arrays.pop("snapshot").tobytes()
-        sample = arrays.pop("sample")
-        rows, size, skipped = head["seen"]
-        seen = Seen(rows, size, skipped, Sample(sample, max(1, len(sample))))
-        part = Part(**({"follow": None, "reward": None} | arrays))
-        state = State(tuple(head["cell"]), part, snapshot, Progress(**head["progress"]), seen)
         same = (head["version"], head["made_from"]) == (_VERSION, made_from)
+        state = _state(head, arrays, asked) if same else None
     except Exception as error:  # of zipfile, of numpy's parser, of JSON
         raise LogError(f"{file}: damaged: {error}: delete it to begin anew") from error
     if not same:

@@ -17,7 +17,7 @@ from ..agent.policy import Policy
 from ..agent.results import CHOICE
 from ..checks import flag, real, whole
 from ..counts import rounds
-from ..counts.part import Part
+from ..counts.part import Part, Question
 from ..counts.table import MEMORY
 from ..domains.bits import Bits
 from ..domains.domain import Domain
@@ -168,7 +168,7 @@ class _Driver:
         self._made_from = checkpoints.fingerprint(
             self._source, self._counting.rounding, self._counting.skip, self.agent.config
         )
-        self._saved = checkpoints.load(file, self._made_from)
+        self._saved = checkpoints.load(file, self._made_from, self._question)
         if self._saved:
             domain, config = self.agent.domain, self.agent.config
             self.agent = Agent.restore(domain, config, self._saved.snapshot)
@@ -188,7 +188,7 @@ class _Driver:
             self.seen += seen
             self._bar.note(seen)
 
-        question = rounds.question_of(self.agent, cell, bool(self._counting.rounding))
+        question = self._question(cell)
         keep = 0 if kept is not None else self._counting.keep  # the first pass has seen all
         counting = dataclasses.replace(self._counting, question=question, keep=keep)
         part = self._engine.total(counting, self._source.pieces, note)
@@ -196,6 +196,9 @@ class _Driver:
         if part.interactions == 0:
             raise LogError("the source holds no interaction")
         return part
+
+    def _question(self, cell: tuple[int, ...]) -> Question:
+        return rounds.question_of(self.agent, cell, bool(self._counting.rounding))
 
     def passed(self, part: Part, cell: tuple[int, ...]) -> None:
         """Save a checkpoint after a pass."""
