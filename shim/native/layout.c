@@ -73,6 +73,7 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_config, alpha_known)},
     {FIELD(rlvc_config, tolerance)},
     {FIELD(rlvc_config, learning_rate)},
+    {FIELD(rlvc_config, smallest_effect)},
     {SIZE(rlvc_choice)},
     {FIELD(rlvc_choice, action)},
     {FIELD(rlvc_choice, exploited)},

@@ -62,9 +62,10 @@ static void test_defaults(void **state) {
     assert_int_equal(config.score, RLVC_SCORE_GAIN);
     assert_int_equal(config.solver, RLVC_SOLVER_VALUE_ITERATION);
     assert_int_equal(config.continuing, 0);
-    const float numbers[] = {config.discount,    config.epsilon,   config.alpha,
-                             config.alpha_known, config.tolerance, config.learning_rate};
-    const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f};
+    const float numbers[] = {config.discount,       config.epsilon,   config.alpha,
+                             config.alpha_known,    config.tolerance, config.learning_rate,
+                             config.smallest_effect};
+    const float expected[] = {0.9f, 0.9f, 0.01f, 1.0f, 0.01f, 0.1f, 0.0f};
     assert_memory_equal(numbers, expected, sizeof expected);
 }
 
@@ -165,6 +166,10 @@ static void test_numbers(void **state) {
          &config.learning_rate,
          {least, 0.5f, 0.1f, one},
          {zero, beyond_one, nan, -one}},
+        {"smallest_effect",
+         &config.smallest_effect,
+         {zero, least, 10.0f, most},
+         {-least, beyond, nan, -one}},
     };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         for (int j = 0; j < 4; j++) {

@@ -241,13 +241,14 @@ static void expect_same(rlvc_agent *one, rlvc_agent *other, uint32_t seed) {
 
 static void test_same_as_a_ring(void **state) {
     (void)state;
-    for (uint32_t seed = 1; seed <= 6u; seed++) {
+    for (uint32_t seed = 1; seed <= 9u; seed++) {
         configure(seed % 2u);
+        p.config.smallest_effect = seed > 6u ? 0.02f * (float)(seed - 6u) : 0.0f;
         p.config.explore = seed % 3u != 0;
         if (seed == 5u)
             p.config.features_at_once = 1; /* fewer than the agent influences */
         p.config.solver = seed > 4u ? RLVC_SOLVER_POLICY_ITERATION : RLVC_SOLVER_VALUE_ITERATION;
-        play(400u * seed, seed, seed % 2u ? 0.0f : 0.1f);
+        play(seed > 6u ? MOST : 400u * seed, seed, seed % 2u ? 0.0f : 0.1f);
         rlvc_agent *expected = learn_ring();
         uint32_t passes;
         expect_same(expected, learn_counts(0, 1u << 20, 1, &passes), seed);

@@ -56,6 +56,7 @@ static void prepare(player *agent, const learning *l, uint32_t steps) {
     agent->config.alpha_known = 0.3f;
     agent->config.successors = l->form != OWN_ORACLE && l->solver != RLVC_SOLVER_POLICY_ITERATION;
     agent->config.dependence = l->form != BATCH && l->solver != RLVC_SOLVER_VALUE_ITERATION;
+    agent->config.smallest_effect = l->form == BATCH ? 0.1f : 0.0f;
     agent->config.features_at_once = agent->config.successors ? 6 : 2;
     player_init(agent);
     for (uint32_t i = 0; i < steps; i++) {

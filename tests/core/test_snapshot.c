@@ -58,6 +58,7 @@ static void prepare(const kind *k) {
     p.config.alpha_known = 0.3f;
     p.config.successors = k->form != OWN_ORACLE;
     p.config.dependence = k->form != OWN_ORACLE;
+    p.config.smallest_effect = k->form == BATCH ? 0.05f : 0.0f;
     p.config.score = k->form == ONE_BY_ONE ? RLVC_SCORE_RANKS : RLVC_SCORE_GAIN;
     player_init(&p);
 }
@@ -469,7 +470,7 @@ static void test_versions_and_mismatches(void **state) {
         uint8_t byte = medium_slot(&store, 1)[at];
         assert_int_equal(load_forged(&store, at, byte ^ 1u, 1), RLVC_E_MISMATCH);
     }
-    medium_slot(&store, 1)[AT_INTERACTIONS - 1] = 1; /* of a field that is no more */
+    medium_slot(&store, 1)[AT_INTERACTIONS - 33] = 1; /* of a field that is no more */
     snapshot_mend(medium_slot(&store, 1));
     assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_E_MISMATCH);
 }

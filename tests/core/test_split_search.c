@@ -197,12 +197,60 @@ static void test_oracle(void **state) {
     }
 }
 
+/* One side of a feature: `count` samples of bit 4 as it is, half of them of either target. */
+typedef struct side {
+    uint8_t action, present;
+    uint32_t count;
+    float low, high;
+} side;
+
+/* What a split must be worth: surely less is not made, and little data make nothing sure. */
+static void test_smallest_effect(void **state) {
+    (void)state;
+    static const struct {
+        float smallest;
+        side side[4];
+        uint8_t splits;
+    } cases[] = {
+        {0.2f, {{0, 0, 300, 0, 0}, {0, 1, 300, 0.1f, 0.1f}}, 0},
+        {0.05f, {{0, 0, 300, 0, 0}, {0, 1, 300, 0.1f, 0.1f}}, 1},
+        {0.2f, {{0, 1, 300, 0, 0}, {0, 0, 300, 0.1f, 0.1f}}, 0}, /* less with it than without */
+        {0.05f, {{0, 1, 300, 0, 0}, {0, 0, 300, 0.1f, 0.1f}}, 1},
+        {0.2f, {{0, 0, 300, 0, 0}, {0, 1, 8, 0.1f, 0.1f}}, 0},
+        {0.2f, {{0, 0, 300, 0, 0}, {0, 1, 7, 0.1f, 0.1f}}, 1}, /* below min_samples */
+        {0.2f, {{0, 1, 300, 0, 0}, {0, 0, 7, 0.1f, 0.1f}}, 1},
+        {0.2f, {{0, 0, 300, -0.5f, 0.5f}, {0, 1, 300, 0, 0}}, 0},  /* wider, on an average equal */
+        {0.05f, {{0, 0, 300, -0.5f, 0.5f}, {0, 1, 300, 0, 0}}, 1}, /* but not surely */
+        {0.5f, {{0, 0, 300, 0, 0}, {0, 1, 300, 0.1f, 0.1f}, {1, 0, 99, 0, 0}, {1, 1, 99, 1, 1}}, 1},
+        {2.0f, {{0, 0, 300, 0, 0}, {0, 1, 300, 0.1f, 0.1f}, {1, 0, 99, 0, 0}, {1, 1, 99, 1, 1}}, 0},
+        {0.2f, {{0, 0, 300, 0, 0}, {0, 1, 300, 0.1f, 0.1f}, {1, 0, 99, 0, 5}}, 0}, /* not divided */
+        {0.2f, {{0, 0, 300, 0, 0}, {0, 1, 300, 0.1f, 0.1f}, {1, 0, 99, 5, 5}}, 0}, /* no cutpoint */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (int detects = 0; detects < 2; detects++) {
+            player_enter_world(&p, detects ? BATCH : ONE_BY_ONE);
+            p.config.actions = 2;
+            p.config.capacity = 1000;
+            p.config.smallest_effect = cases[i].smallest;
+            player_init(&p);
+            for (uint32_t j = 0; j < 4u; j++) {
+                const side *s = &cases[i].side[j];
+                add(s->count / 2u, s->present ? 16 : 0, s->action, s->low);
+                add(s->count - s->count / 2u, s->present ? 16 : 0, s->action, s->high);
+            }
+            player_learn(&p, RLVC_BUDGET_UNBOUNDED, NULL);
+            if (player_stats(&p).classes != 1u + cases[i].splits)
+                fail_msg("case %u: %u classes", (unsigned)i, (unsigned)player_stats(&p).classes);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tie_of_actions), cmocka_unit_test(test_tie_of_features),
         cmocka_unit_test(test_together),       cmocka_unit_test(test_min_samples),
         cmocka_unit_test(test_near_targets),   cmocka_unit_test(test_nothing_tells),
-        cmocka_unit_test(test_oracle),
+        cmocka_unit_test(test_oracle),         cmocka_unit_test(test_smallest_effect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ Config = struct("Config", actions=U32, capacity=U32, classes=U32, features_at_on
                 min_samples=U32, max_sweeps=U32, seed=U32, criterion=U8, score=U8, solver=U8,
                 continuing=U8, successors=U8, explore=U8, dependence=U8,
                 reserved=U8, discount=FLOAT, epsilon=FLOAT, alpha=FLOAT,
-                alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT)
+                alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT, smallest_effect=FLOAT)
 Choice = struct("Choice", action=U8, exploited=U8)
 Progress = struct("Progress", work=U32, rounds=U32, splits=U32, done=U8, reserved=U8 * 3)
 Statistics = struct("Statistics", interactions=U64, stored=U32, step=U32, classes=U32, depth=U32,

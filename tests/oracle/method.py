@@ -320,6 +320,21 @@ def search(percepts, actions, targets, action_count, gap, kind, min_samples):
     return Search(alone, together, groups, numpy.log(max(len(features), 1)), kind)
 
 
+def matters(percepts, actions, targets, groups, feature, smallest, min_samples):
+    """May the mean targets with and without a feature be apart by that after any action with a cutpoint?"""
+    for group in groups:
+        mine = targets[actions == group.action]
+        sides = [mine[percepts[actions == group.action, feature] == v] for v in (0, 1)]
+        fewer = min(len(side) for side in sides)
+        if fewer == 0:
+            continue
+        apart = abs(sides[1].mean() - sides[0].mean())
+        error = numpy.sqrt(sum(side.var() / len(side) for side in sides))
+        if fewer < min_samples or apart + 3 * error >= smallest:
+            return True
+    return False
+
+
 def level(alpha, step, successors):
     """At which a feature new to the tree must pass."""
     d = (step + 1).bit_length()

@@ -95,7 +95,10 @@ class Learner:
         def search(mine):
             found = method.search(percepts[mine], actions[mine], targets[mine], self.config.actions,
                                   gap, self.config.score, self.config.min_samples)
-            return self.allowed(found) if found else []
+            smallest = self.config.smallest_effect
+            return [x for x in (self.allowed(found) if found else []) if smallest == 0 or method.matters(
+                percepts[mine], actions[mine], targets[mine], found.groups, x["bit"], smallest,
+                self.config.min_samples)]
 
         def follow(mine):
             if mine.sum() < self.config.min_samples:
@@ -267,7 +270,8 @@ def test_random_residual(seed):
         int(rng.integers(2, 12)), int(rng.integers(1, 5)), classes=200, capacity=1000,
         criterion=method.RESIDUAL, score=SCORES[seed % 4], alpha=[0.01, 0.3, 1.0][seed % 3 - seed % 2],
         tolerance=1e-4, discount=float(rng.choice([0.0, 0.5, 0.9])), solver=seed // 2 % 2,
-        min_samples=int(rng.integers(2, 20)), features_at_once=1 + seed % 7)
+        min_samples=int(rng.integers(2, 20)), features_at_once=1 + seed % 7,
+        smallest_effect=[0.0, 1.3][seed % 5 == 0])
     for _ in range(2):
         fill(learner, rng, int(rng.integers(5, 250)), levels=int(rng.choice([1, 3, 30])))
         learner.learn()

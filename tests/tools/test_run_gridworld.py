@@ -49,7 +49,7 @@ def test_help(tmp_path, arguments):
 
 def test_help_names_every_option(tmp_path):
     text = run("binary", "--help", cwd=tmp_path).stdout
-    for option in ("solver criterion score interactions steps discount epsilon alpha alpha-known successors seed runs maze legend slip distractors "
+    for option in ("solver criterion score interactions steps discount epsilon alpha alpha-known smallest-effect successors seed runs maze legend slip distractors "
                    "classes capacity json dot export-c help version").split():
         assert re.search(rf"--{option}\b", text), option
 
@@ -93,6 +93,7 @@ def check_refused(done, *parts):
     (["binary", "--alpha", "1e-60"], ["--alpha"]),  # is 0 in binary32
     (["binary", "--alpha", "nan"], ["--alpha"]),
     (["binary", "--alpha-known", "2"], ["--alpha-known", "(0, 1]"]),
+    (["binary", "--smallest-effect", "-1"], ["--smallest-effect", "[0, 1e+12]"]),
     (["binary", "--successors", "maybe"], ["--successors", "yes", "no"]),
     (["binary", "--slip", "2"], ["--slip"]),
     (["binary", "--slip", "nan"], ["--slip"]),

@@ -144,6 +144,12 @@ typedef struct rlvc_config {
 
     /* Learning rate of the incremental solvers, (0, 1]. Default 0.1. */
     float learning_rate;
+
+    /* In units of return, [0, RLVC_REWARD_MAX]. Of very many interactions any difference becomes
+     * significant; a class is not split by targets if the mean targets of the two sides surely
+     * differ by less, after each action: by three standard errors. Splits by what follows
+     * (successors) are made all the same. 0: any difference is worth a split. Default 0. */
+    float smallest_effect;
 } rlvc_config;
 
 /* Fills *config with the defaults for a domain and a number of actions. The domain is only looked

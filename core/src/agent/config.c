@@ -4,8 +4,9 @@
 
 #include "config.h"
 
-#include "../stats/rank_sum.h"
+#include "../base/float_math.h"
 #include "../base/solver_select.h"
+#include "../stats/rank_sum.h"
 #include <stddef.h>
 #include <string.h>
 
@@ -69,6 +70,7 @@ enum {
     WRONG_ALPHA_KNOWN,
     WRONG_TOLERANCE,
     WRONG_LEARNING_RATE,
+    WRONG_SMALLEST_EFFECT,
     WRONG_SUCCESSORS_DOMAIN,
     WRONG_RANKS
 };
@@ -94,7 +96,7 @@ static const unsigned char *fields_of(const rlvc_config *config, size_t offset) 
 typedef char six_counts[offsetof(rlvc_config, seed) == 24 ? 1 : -1];
 typedef char
     eight_choices[offsetof(rlvc_config, discount) - offsetof(rlvc_config, criterion) == 8 ? 1 : -1];
-typedef char six_numbers[sizeof(rlvc_config) - offsetof(rlvc_config, discount) == 24 ? 1 : -1];
+typedef char seven_numbers[sizeof(rlvc_config) - offsetof(rlvc_config, discount) == 28 ? 1 : -1];
 
 /* The range of a field, its ends included. */
 typedef struct range {
@@ -135,14 +137,17 @@ static int wrong_in_choices(const rlvc_config *config) {
     return NOTHING_WRONG;
 }
 
+/* Numbers from 0 on are in the order of their bits; those below, and a NaN, come after them all. */
 static int wrong_in_numbers(const rlvc_config *config) {
-    float number[6];
+    uint32_t number[7];
     memcpy(number, fields_of(config, offsetof(rlvc_config, discount)), sizeof number);
     for (int i = 0; i < (int)(sizeof number / sizeof number[0]); i++) {
-        int may_be_0 = i < 2;
-        float high = i == 4 ? RLVC_REWARD_MAX : 1.0f;
-        if (!(number[i] >= 0.0f && number[i] <= high) || (number[i] == 0.0f && !may_be_0))
-            return WRONG_DISCOUNT + i; /* also a NaN */
+        const int may_be_0 = i < 2 || i == 6;
+        const int may_be_large = i == 4 || (RLVC_HAS_EFFECT && i == 6);
+        const float most = may_be_large ? RLVC_REWARD_MAX : i < 6 ? 1.0f : 0.0f;
+        const int is_0 = number[i] << 1u == 0; /* or -0 */
+        if (is_0 ? !may_be_0 : number[i] > rlvc_bits_of(most))
+            return WRONG_DISCOUNT + i;
     }
     return NOTHING_WRONG;
 }
@@ -186,6 +191,7 @@ static const char *message_of(int wrong) {
         [WRONG_ALPHA_KNOWN] = "alpha_known must be within (0, 1]",
         [WRONG_TOLERANCE] = "tolerance must be within (0, 1e12]",
         [WRONG_LEARNING_RATE] = "learning_rate must be within (0, 1]",
+        [WRONG_SMALLEST_EFFECT] = "smallest_effect must be within [0, 1e12]",
         [WRONG_SUCCESSORS_DOMAIN] = "successors needs a features_max above 0 and no oracle",
         [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
     };

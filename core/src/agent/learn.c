@@ -52,7 +52,9 @@ rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
                              criterion,
                              &agent->domain,
                              agent->config.min_samples,
-                             agent->config.score == RLVC_SCORE_RANKS};
+                             RLVC_HAS_EFFECT ? agent->config.smallest_effect : 0.0f,
+                             RLVC_HAS_SCORE(RLVC_SCORE_RANKS) &&
+                                 agent->config.score == RLVC_SCORE_RANKS};
     return made;
 }
 

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Which solvers, scores, criteria, oracles and kinds of dependence are built in. A controller that
- * uses one of each need not carry the others: -DRLVC_SOLVERS=1 -DRLVC_SCORES=1 -DRLVC_CRITERIA=2
- * -DRLVC_ORACLES=1 -DRLVC_DEPENDENCES=1 leave value iteration, the information gain, the residual
- * criterion, the default refining oracle and samples that count as independent, and save about 3
- * KiB. Bit n stands for number n of RLVC_SOLVER_*, RLVC_SCORE_* or RLVC_CRITERION_*, or of
- * config.dependence; of RLVC_ORACLES 0 is the default oracle and 1 the domain's own.
+/* Which solvers, scores, criteria, oracles, kinds of dependence and smallest effects are built in.
+ * A controller that uses one of each need not carry the others: -DRLVC_SOLVERS=1 -DRLVC_SCORES=1
+ * -DRLVC_CRITERIA=2 -DRLVC_ORACLES=1 -DRLVC_DEPENDENCES=1 -DRLVC_EFFECTS=1 leave value iteration,
+ * the information gain, the residual criterion, the default refining oracle, samples that count as
+ * independent and splits by any difference, and save about 4 KiB. Bit n stands for number n of
+ * RLVC_SOLVER_*, RLVC_SCORE_* or RLVC_CRITERION_*, or of config.dependence; of RLVC_ORACLES 0 is
+ * the default oracle and 1 the domain's own; of RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any
+ * other.
  *
  * What is left out is compiled all the same, under conditions that are constant, so that it cannot
  * rot. */
@@ -28,9 +30,15 @@
 #define RLVC_DEPENDENCES 3u
 #endif
 
-/* 1 if a domain may have its own oracle; 1 if dependence can be allowed for. O(1). */
+#ifndef RLVC_EFFECTS
+#define RLVC_EFFECTS 3u
+#endif
+
+/* 1 if a domain may have its own oracle; if dependence can be allowed for; if a split can be too
+ * little worth. O(1). */
 #define RLVC_HAS_OWN_ORACLE ((int)((unsigned)(RLVC_ORACLES) >> 1u & 1u))
 #define RLVC_HAS_DEPENDENCE ((int)((unsigned)(RLVC_DEPENDENCES) >> 1u & 1u))
+#define RLVC_HAS_EFFECT ((int)((unsigned)(RLVC_EFFECTS) >> 1u & 1u))
 
 /* 1 if a solver is built in. O(1). */
 #define RLVC_HAS_SOLVER(number) ((int)((unsigned)(RLVC_SOLVERS) >> (number)&1u))

@@ -5,8 +5,10 @@
 #include "rlvc/float_rules.h"
 
 #include "../agent/learn.h"
+#include "../split/effect.h"
 #include "../stats/score.h"
 #include "table.h"
+#include <string.h>
 
 /* The samples of the class after one action. */
 typedef struct group {
@@ -95,6 +97,26 @@ static rlvc_count open(rlvc_count_table *table, const rlvc_agent *agent, uint32_
     return all;
 }
 
+/* Whether a split of the class by a feature may be worth what is asked for (split/effect.h). */
+static int matters(const rlvc_count_table *table, const rlvc_agent *agent, uint32_t class_id,
+                   uint32_t f) {
+    rlvc_effect effect;
+    memset(&effect, 0, sizeof effect);
+    for (uint32_t a = 0; a < agent->config.actions; a++) {
+        if (table->cuts[a] == 0)
+            continue;
+        const group of = group_of(table, agent, class_id, a);
+        for (uint32_t i = of.begin; i < of.end; i++) {
+            const uint64_t count = table->counts->row[table->sample[i].slot].count;
+            const uint64_t present = with(table, i, f);
+            rlvc_effect_add(&effect, table->sample[i].key, (rlvc_count)(count - present),
+                            (rlvc_count)present);
+        }
+        rlvc_effect_close(&effect, agent->config.smallest_effect, agent->config.min_samples);
+    }
+    return effect.matters;
+}
+
 const void *rlvc_count_search(rlvc_count_table *table, rlvc_agent *agent, uint32_t class_id,
                               rlvc_split *about) {
     static const rlvc_evidence nothing = {
@@ -122,6 +144,8 @@ const void *rlvc_count_search(rlvc_count_table *table, rlvc_agent *agent, uint32
         rlvc_evidence_test_pooled(&evidence);
     rlvc_evidence_result(&evidence, agent->config.actions, about);
     uint32_t found = about->action == agent->config.actions ? pooled : per_action;
+    if (agent->config.smallest_effect > 0.0f && !matters(table, agent, class_id, found))
+        return NULL;
     return (const unsigned char *)table->counts->feature +
            (size_t)found * agent->tree.feature_bytes;
 }

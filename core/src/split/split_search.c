@@ -5,7 +5,8 @@
  * at a time (PROPOSE), each group that takes part has the block's columns made (DETECT) and scanned
  * (SCAN); a block that all groups have seen is closed (CLOSE). With the domain's own oracle, each
  * cutpoint of each group is put to it (ASK) and its feature counted (ANSWER). At the end the
- * winners get their p-values (TEST_PER_ACTION, TEST_POOLED). */
+ * winners get their p-values (TEST_PER_ACTION, TEST_POOLED), and what the split is worth is found
+ * in each group that takes part (EFFECT), if that is asked for. */
 #include "rlvc/float_rules.h"
 
 #include "split_search.h"
@@ -29,7 +30,8 @@ enum {
     ANSWER,
     TEST_PER_ACTION,
     TEST_POOLED,
-    DONE = 12 /* a snapshot may hold it; 10 and 11 are not in use */
+    EFFECT,
+    DONE = 12 /* a snapshot may hold it; 11 is not in use */
 };
 
 void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_config *config,
@@ -362,6 +364,42 @@ static rlvc_status consult(rlvc_split_cursor *search, const rlvc_split_input *in
 
 /* ------------------------------------------------------------------ the whole */
 
+/* The p-values are there. */
+static void close_test(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    if (!RLVC_HAS_EFFECT || !(input->smallest_effect > 0.0f)) {
+        enter(search, DONE);
+        return;
+    }
+    memset(&search->inner.effect, 0, sizeof search->inner.effect);
+    search->action = 0;
+    next_group(search, input->space, EFFECT, DONE);
+}
+
+/* Looks for the winner in the next sample of the group at work, for what it is worth; after the
+ * last group drops it if that is too little. */
+static rlvc_status measure(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    const rlvc_group *group = &input->space->of_action.group[search->action];
+    rlvc_effect *effect = &search->inner.effect;
+    if (search->at < size_of(group)) {
+        const rlvc_sample *sample = &search->view.sample[group->begin + search->at];
+        rlvc_split about;
+        uint8_t present;
+        rlvc_status status = rlvc_split_input_exhibits(
+            input, sample->slot, rlvc_split_search_result(search, input->space, &about), &present);
+        if (status != RLVC_OK)
+            return status;
+        rlvc_effect_add(effect, sample->key, present == 0, present != 0);
+        search->at++;
+        return RLVC_OK;
+    }
+    rlvc_effect_close(effect, input->smallest_effect, input->min_samples);
+    search->action++;
+    next_group(search, input->space, EFFECT, DONE);
+    if (search->done && !effect->matters)
+        search->evidence.per_action.evidence = 0.0f;
+    return RLVC_OK;
+}
+
 /* Finds the p-value of one of the winners, if there are any. */
 static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
     rlvc_evidence *evidence = &search->evidence;
@@ -371,10 +409,13 @@ static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
     }
     if (search->phase == TEST_PER_ACTION) {
         rlvc_evidence_test_per_action(evidence, BY_RANKS(input));
-        enter(search, rlvc_evidence_is_pooled(evidence) ? TEST_POOLED : DONE);
+        if (rlvc_evidence_is_pooled(evidence))
+            enter(search, TEST_POOLED);
+        else
+            close_test(search, input);
     } else {
         rlvc_evidence_test_pooled(evidence);
-        enter(search, DONE);
+        close_test(search, input);
     }
     return RLVC_TEST_UNITS;
 }
@@ -383,6 +424,8 @@ static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
 static rlvc_status advance(rlvc_split_cursor *search, const rlvc_split_input *input,
                            uint32_t budget, uint32_t *used) {
     *used = 1;
+    if (RLVC_HAS_EFFECT && search->phase == EFFECT)
+        return measure(search, input);
     switch (search->phase) {
     case SORT:
         *used = rlvc_sort_step(&search->inner.sort, budget);
@@ -416,7 +459,8 @@ static rlvc_status advance(rlvc_split_cursor *search, const rlvc_split_input *in
 /* The units that the phase needs to get on: the steps of some are not divided further. */
 static uint32_t needed(const rlvc_split_cursor *search) {
     int divided = search->phase == MARK || search->phase == PROPOSE || search->phase == CLOSE ||
-                  search->phase == ASK || search->phase == ANSWER;
+                  search->phase == ASK || search->phase == ANSWER ||
+                  (RLVC_HAS_EFFECT && search->phase == EFFECT);
     return divided ? 1u : RLVC_BUDGET_MIN;
 }
 

@@ -26,12 +26,14 @@
  * The split has the lower p-value. With more than one group both tests are made, and the p-value is
  * corrected by 2 (all these corrections are Bonferroni's). F counts the features that divide some
  * group. Under the returns criterion a class has one group, of its greedy action, and the split is
- * the published one. */
+ * the published one. With config.smallest_effect there is none if it is surely worth less
+ * (effect.h). */
 #ifndef RLVC_SRC_SPLIT_SEARCH_H
 #define RLVC_SRC_SPLIT_SEARCH_H
 
 #include "../samples/targets.h"
 #include "cutpoint.h"
+#include "effect.h"
 #include "evidence.h"
 #include "../samples/rows.h"
 #include "../samples/sort.h"
@@ -102,6 +104,7 @@ typedef struct rlvc_split_cursor {
         rlvc_sort_cursor sort;
         rlvc_cutpoint_cursor scan;
         rlvc_answer answer;
+        rlvc_effect effect;
     } inner;
     rlvc_evidence evidence;
     uint32_t action; /* the group at work */
@@ -122,6 +125,7 @@ typedef struct rlvc_split_input {
     const rlvc_target_input *aliasing;
     const rlvc_domain *domain;
     uint32_t min_samples;
+    float smallest_effect;
     uint8_t by_ranks; /* config.score is RLVC_SCORE_RANKS */
 } rlvc_split_input;
 
@@ -147,7 +151,7 @@ void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for
  * each sample marked or detected (with up to 64 features; without detect(), for each feature of
  * each sample), what sorting and the scan of each column are charged, one for each feature of a
- * block, RLVC_TEST_UNITS for each of the two p-values.
+ * block, RLVC_TEST_UNITS for each of the two p-values, and for the effect one for each sample.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_split_search_step(rlvc_split_cursor *search, const rlvc_split_input *input,
                                    uint32_t budget, uint32_t *used);

@@ -51,7 +51,7 @@ static int pass_config(rlvc_stream *s, rlvc_config *config) {
     rlvc_stream_float(s, &config->alpha_known);
     rlvc_stream_float(s, &config->tolerance);
     rlvc_stream_float(s, &config->learning_rate);
-    known &= pass_reserved(s, 4); /* optimistic_value */
+    rlvc_stream_float(s, &config->smallest_effect);
     return known;
 }
 

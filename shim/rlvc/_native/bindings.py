@@ -217,7 +217,7 @@ class Config(c.Structure):
         ("successors", c.c_uint8), ("explore", c.c_uint8), ("dependence", c.c_uint8),
         ("reserved", c.c_uint8), ("discount", c.c_float), ("epsilon", c.c_float),
         ("alpha", c.c_float), ("alpha_known", c.c_float), ("tolerance", c.c_float),
-        ("learning_rate", c.c_float),
+        ("learning_rate", c.c_float), ("smallest_effect", c.c_float),
     ]
 
 

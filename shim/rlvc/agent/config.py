@@ -88,6 +88,10 @@ class Config:
         Accuracy of the values of a batch solver, in units of reward, (0, 1e12].
     learning_rate : float
         Learning rate of q_learning and sarsa, (0, 1].
+    smallest_effect : float
+        In units of return, [0, 1e12]. A class is not split by targets if the mean targets of the two
+        sides surely differ by less, after each action. For very many interactions, of which any
+        difference becomes significant. 0: any difference is worth a split.
 
     Notes
     -----
@@ -115,6 +119,7 @@ class Config:
     alpha_known: float | None = None
     tolerance: float = 0.01
     learning_rate: float = 0.1
+    smallest_effect: float = 0.0
 
     def replace(self, **changes: object) -> Config:
         """Return a copy with some fields changed.

@@ -50,6 +50,10 @@ void add_learning(CLI::App &app, Options &options) {
                    "largest corrected p-value of a bit that the tree tests already")
         ->type_name("P")
         ->check(number(0, 1, Interval::open_low));
+    app.add_option("--smallest-effect", options.smallest_effect,
+                   "smallest difference of return that is worth a split (default 0: any)")
+        ->type_name("RETURN")
+        ->check(number(0, RLVC_REWARD_MAX));
     app.add_option_function<std::string>(
            "--successors",
            [&options](const std::string &answer) { options.successors = answer == "yes"; },

@@ -12,9 +12,10 @@ struct Options : LearningOptions {
     uint8_t score = 0;        // RLVC_SCORE_*
     float alpha_known = 0.0f; // 0: see settle()
     int successors = -1;      // negative: see settle()
-    uint32_t capacity = 0;    // 0: see settle()
-    std::string maze;         // a file; empty: Sutton's maze
-    std::string legend;       // signs of the maze; empty: those of its dialect
+    float smallest_effect = 0.0f;
+    uint32_t capacity = 0; // 0: see settle()
+    std::string maze;      // a file; empty: Sutton's maze
+    std::string legend;    // signs of the maze; empty: those of its dialect
     float slip = 0.0f;
     uint32_t distractors = 11;
     std::string export_c; // a file; empty: none

@@ -25,6 +25,7 @@ rlvc_config make_config(const Options &options, const rlvc_domain &domain, uint3
     config.score = options.score;
     config.alpha_known = options.alpha_known;
     config.successors = options.successors > 0;
+    config.smallest_effect = options.smallest_effect;
     return config;
 }
 

@@ -20,6 +20,7 @@ Json describe_options(const Options &options) {
     json["score"] = score_name(options);
     add_learning(json, options);
     json["alpha_known"] = shortest(options.alpha_known);
+    json["smallest_effect"] = shortest(options.smallest_effect);
     json["successors"] = options.successors > 0 ? "yes" : "no";
     json["capacity"] = options.capacity;
     json["maze"] = options.maze.empty() ? Json(nullptr) : Json(options.maze);
