@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What the promise of the same bits everywhere asks of a compiler, whatever its options: each
- * operation on floats is rounded by itself. Every source of the library includes this first. So
+/* Makes compilers round each operation on floats by itself, whatever their options. The promise of
+ * the same bits everywhere rests on that. Every source of the library includes this file first. So
  * should the sources of a domain of your own that calculates with floats.
  *
- * Where a compiler may be told, it is told. Otherwise compiling ends here. */
+ * A compiler that cannot be told to do so stops here with an error. */
 #ifndef RLVC_FLOAT_RULES_H
 #define RLVC_FLOAT_RULES_H
 

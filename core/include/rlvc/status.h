@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Status codes: what every function of the library returns.
  *
- * A function that fails leaves its arguments and the agent as they were, unless its
- * documentation says otherwise. Only rlvc_learn does: it keeps what it finished before a callback
- * failed. */
+ * A function that fails changes neither its arguments nor the agent. The one exception is
+ * rlvc_learn: it keeps what it finished before a callback failed. */
 #ifndef RLVC_STATUS_H
 #define RLVC_STATUS_H
 

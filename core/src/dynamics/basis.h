@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* What the linear models of the dynamics are linear in:
+/* The terms of the linear models of the dynamics:
  *
  *     x = [1, z_1 .. z_D, (a == 1) .. (a == A - 1), z_1 z_1, z_2 z_1, z_2 z_2, .. z_D z_D]
  *
- * with z the percept less its mean, over its deviation. A short basis leaves out the products. */
+ * where z is the percept less its mean, divided by its standard deviation. The short basis leaves
+ * out the products. */
 #ifndef RLVC_SRC_BASIS_H
 #define RLVC_SRC_BASIS_H
 

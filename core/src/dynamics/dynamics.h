@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The learnt model of the world: what s' and the reward are after an action in s, and whether the
+/* The learnt model of the world. It predicts s' and the reward of an action in s, and whether the
  * episode ends there.
  *
- * A model tree (model_tree.h) for each component of s' - s and one for the reward of the
- * interactions that do not terminate, each with the short basis or the full one, whichever
- * describes the sample in less; and a tree of the endings (ending.h). What is predicted is held
- * within what was ever seen, by half its range more for a percept. */
+ * It consists of model trees (model_tree.h), one for each component of s' - s and one for the
+ * reward of interactions that do not terminate, and of a tree of the endings (ending.h). A model
+ * tree uses the short basis or the full one, whichever has the shorter description (tree_fit.h).
+ * Predicted rewards stay within the range that was seen, predicted percepts within that range
+ * widened by half of it. */
 #ifndef RLVC_SRC_DYNAMICS_H
 #define RLVC_SRC_DYNAMICS_H
 

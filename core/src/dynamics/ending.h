@@ -2,9 +2,9 @@
 /* Where episodes terminate: a tree over s' whose leaves hold the probability that an interaction
  * which leads there terminates, and the mean reward of those that did.
  *
- * It grows best split first, by Gini's index over weighted rows. A cut is found without sorting:
- * the node's values are counted in bins over a window, at first the whole range; the window closes
- * on the best boundary of two bins, three times over. */
+ * It grows best split first, by Gini's index over weighted rows. A cut is found without sorting.
+ * The node's values are counted in bins over a window, which is the whole range at first. The
+ * window then shrinks to the bins around the best boundary, three times. */
 #ifndef RLVC_SRC_ENDING_H
 #define RLVC_SRC_ENDING_H
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* A model tree: one number that follows a percept and an action, s'[k] - s[k] or the reward.
+/* A model tree: predicts one number from a percept and an action, s'[k] - s[k] or the reward.
  *
- * Tests are x[i] > cut or a == k; the leaves hold linear models over the basis (basis.h). Children
- * are next to each other and after their parent. A prediction is held within the range of the
- * leaf's own targets, half of it more where the tree is told so; the leaf's noise is the deviation
- * of what it leaves unexplained. Everything is in units of the target's deviation. */
+ * Tests are x[i] > cut or a == k. The leaves hold linear models over the basis (basis.h). Children
+ * are next to each other and after their parent. A prediction stays within the range of the leaf's
+ * own targets, or on request within that range widened by half of it. A leaf's noise is the
+ * standard deviation of its residuals. Everything is in units of the target's deviation. */
 #ifndef RLVC_SRC_MODEL_TREE_H
 #define RLVC_SRC_MODEL_TREE_H
 

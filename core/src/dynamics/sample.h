@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The rows of the ring that a model is fitted to: a bounded sample of the interactions, stratified.
  *
- * However many interactions there are, a fit looks at `room` of them at most, and so costs the
- * same; and at seven in ten at most, so that two samples differ however few there are. Those that
- * terminated are few and tell where episodes end, so they are drawn apart: up to a quarter of the
- * room is theirs. Each of a stratum's interactions is as likely to be drawn as any other (selection
- * sampling, Knuth volume 2, 3.4.2, algorithm S), and stands for `weight` of them.
+ * A fit looks at `room` interactions at most, so its cost is bounded. It looks at seven in ten at
+ * most, so that two samples differ even if there are few interactions. Interactions that terminated
+ * are few and show where episodes end. They are drawn apart and get up to a quarter of the room.
+ * Each of a stratum's interactions is as likely to be drawn as any other (selection sampling, Knuth
+ * volume 2, 3.4.2, algorithm S), and stands for `weight` of them.
  *
  * Rows [0, going) did not terminate, rows [going, count) did. */
 #ifndef RLVC_SRC_SAMPLE_H

@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The policies that were tried, and what they are worth: the model's word, corrected by real
- * returns.
+/* The policies that were tried, each with a score: the model's promise, corrected by real returns.
  *
- * With M(s) what the model promises from a start s, an episode's return differs from what was
- * promised from its own start by return - beta M(s). beta, in [0.05, 1], is the slope of the
- * regression of real on promised returns over all episodes: how far the model is to be trusted. So
+ * M(s) is the return that the model promises from a start s. beta, in [0.05, 1], is the slope of
+ * the regression of real on promised returns over all episodes; it says how far the model is
+ * trusted. An episode that starts in s differs from its promise by return - beta M(s). So
  *
  *     score = beta mean M(starts) + (sum of (return - beta M(s)) + common) / (episodes + 1),
  *
- * the policy's own differences, drawn towards the common one as by one episode more. It takes the
- * luck of the start out of few episodes, and ranks a policy that was never tried beside those that
- * were. */
+ * where the common difference counts as one more episode. The score removes the luck of the start
+ * when episodes are few. It also ranks policies that were never tried among those that were. */
 #ifndef RLVC_SRC_ARCHIVE_H
 #define RLVC_SRC_ARCHIVE_H
 

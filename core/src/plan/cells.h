@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What is new: for each pair of components, a grid of 12 x 12 cells over the bounds of the dynamics
- * model, and a bit for each cell that was visited. A single component is paired with itself. */
+/* Where the planner has been: for each pair of components, a grid of 12 x 12 cells over the bounds
+ * of the dynamics model, with a bit for each cell that was visited. A single component is paired
+ * with itself. */
 #ifndef RLVC_SRC_CELLS_H
 #define RLVC_SRC_CELLS_H
 

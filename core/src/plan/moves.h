@@ -2,9 +2,9 @@
 /* The moves of the search from one small tree to the next: split a leaf, shift a cut or draw it
  * anew, replace a test, change an action, put a side in its test's place, swap a test's sides.
  *
- * One move always, a second one time in three and a third one time in ten. Cuts that are drawn are
- * the value of a component in a row of the experience. A node that no rollout passed is
- * rarely moved. */
+ * There is always one move, a second one in a third of the cases, and a third one in a tenth. A cut
+ * that is drawn is the value of a component in a row of the experience. Nodes that no rollout
+ * passed are rarely moved. */
 #ifndef RLVC_SRC_MOVES_H
 #define RLVC_SRC_MOVES_H
 

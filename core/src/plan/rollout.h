@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* What a policy earns in the model from one start: episodes in the learnt dynamics.
+/* Rollouts: what a policy earns from one start in the learnt dynamics.
  *
- * The probability that the episode ends is a weight and no draw: what follows counts by the
- * probability that it is reached.
+ * Whether the episode ends is not drawn. Each later reward is weighted by the probability that it
+ * is reached.
  *
- * There are two models, of samples of their own, and the policy acts as it is or, one time in
- * fifty, at random: four kinds of rollouts in turn, by the number of the start. What a search
- * exploits in one model's errors the other does not confirm. A policy that gets stuck in a circle
- * is freed from it by random actions, and one that balances on a knife's edge is not shaken without
- * them.
+ * There are four kinds of rollouts, which take turns by the number of the start: in either of two
+ * models, with random actions (one in fifty) or without. The models are fitted to different
+ * samples, so that one does not confirm what a search finds in the errors of the other. Random
+ * actions free a policy that goes in a circle. Rollouts without them do not disturb one that
+ * balances.
  *
- * The random numbers of a step depend on the seed, the start and the step alone, so that two
- * policies meet the same luck (common random numbers), and however the work is sliced. */
+ * The random numbers of a step depend on the seed, the start and the step alone. So two policies
+ * meet the same luck (common random numbers), however the work is sliced. */
 #ifndef RLVC_SRC_ROLLOUT_H
 #define RLVC_SRC_ROLLOUT_H
 

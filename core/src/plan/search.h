@@ -2,12 +2,13 @@
 /* The search for a small tree that earns much in the model: one move at a time (moves.h), from a
  * tree that is given.
  *
- * A candidate is rolled out from each start. It is given up once it lags the tree in hand by more
- * than a twentieth over four starts or more. It takes its place if it earns as much less a price
- * for each leaf; equals are accepted, since many moves change nothing yet. The search ends after so
- * many candidates, or 2,500 steps of the model for each of that number, or once so many in a row
- * have gained nothing: a quarter of that where the tree in hand earns the greatest reward at each
- * step, so that only leaves can be saved. */
+ * A candidate is rolled out from each start. It is given up once it is more than a twentieth behind
+ * the present tree over four starts or more. It replaces the present tree if its return, less a
+ * price for each leaf, is no lower. Equals are accepted, since many moves change nothing yet.
+ *
+ * The search ends after `candidates` candidates, after 2,500 times as many steps of the model, or
+ * after `patience` candidates in a row without gain. A quarter of that is enough where the present
+ * tree earns the greatest reward at each step, since then only leaves can be saved. */
 #ifndef RLVC_SRC_SEARCH_H
 #define RLVC_SRC_SEARCH_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Does what was loaded into a planner hold together? Nothing of it may become an index, a shift or
- * a division that is not one of a planner's own. */
+/* Checks what was loaded into a planner. No loaded number is used as an index, a shift or a divisor
+ * before it was found to be one that a planner itself could have. */
 #ifndef RLVC_SRC_PLANNER_CHECK_H
 #define RLVC_SRC_PLANNER_CHECK_H
 

@@ -2,11 +2,10 @@
 /* The two slots of a store, and the bytes of one snapshot as a stream.
  *
  * A snapshot is a head of 16 bytes (the letters RLVS, version, sequence number, bytes in all), its
- * content, zeros, and in its last four bytes the CRC of all that is before them. It is whole if the
- * CRC is right, of two that are whole the one with the higher sequence number is the newer, and
- * writing goes to the slot that does not hold the newest whole one. So a write never touches
- * the snapshot that would be the fallback, and the order of writes within a slot does not matter.
- */
+ * content, zeros, and in its last four bytes the CRC of all before them. It is whole if the CRC is
+ * right. Of two whole snapshots the one with the higher sequence number is the newer. Writing uses
+ * the slot that does not hold the newest whole one. So a write never touches the snapshot to fall
+ * back on, and the order of writes within a slot does not matter. */
 #ifndef RLVC_SRC_TWO_SLOT_H
 #define RLVC_SRC_TWO_SLOT_H
 
