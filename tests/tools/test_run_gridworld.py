@@ -352,14 +352,14 @@ def test_default_run_learns_the_maze(tmp_path):
     assert made["interactions_to_optimal"] <= 2500 <= made["interactions"] == 5000
 
 
-def test_little_memory_is_enough(tmp_path):
+def test_little_memory_learns_the_maze(tmp_path):
     made = report("--interactions", "2500", "--capacity", "1200", "--classes", "64", cwd=tmp_path)
     assert made["optimal_cells"] == 46 and made["distractors_used"] == 0
     if "RLVC_RED_ZONES" not in os.environ:  # which lie between the arrays of the agent's block
         assert made["memory_bytes"] <= 36 * 1024
 
 
-def test_many_distractors(tmp_path):
+def test_many_distractors_learn_the_maze(tmp_path):
     made = report("--interactions", "2000", "--distractors", "110", cwd=tmp_path)
     assert made["optimal_cells"] == 46 and made["distractors_used"] == 0
     assert made["options"]["successors"] == "yes"
@@ -382,11 +382,11 @@ def test_ranks_learn_the_maze(tmp_path):
 
 
 def test_report_of_several_runs(tmp_path):
-    made = report("--runs", "3", "--seed", "5", cwd=tmp_path)
+    made = report("--runs", "3", "--seed", "5", "--interactions", "1500", cwd=tmp_path)
     assert [one["seed"] for one in made["runs"]] == [5, 6, 7]
     for one in made["runs"]:
         check_run(one)
-    alone = report("--seed", "6", cwd=tmp_path)
+    alone = report("--seed", "6", "--interactions", "1500", cwd=tmp_path)
     of_three = made["runs"][1]
     assert {name: alone[name] for name in of_three if name != "seconds"} == \
            {name: of_three[name] for name in of_three if name != "seconds"}
@@ -405,14 +405,14 @@ def without_time(made):
     return {name: value for name, value in made.items() if name != "seconds"}
 
 
-def test_same_seed_same_report(tmp_path):
+def test_same_seed_learns_the_same(tmp_path):
     first, again, other = (report("--seed", seed, "--interactions", "2000", cwd=tmp_path)
                            for seed in ("3", "3", "4"))
     assert without_time(first) == without_time(again)
     assert first["tree"] != other["tree"]
 
 
-def test_built_in_maze_is_the_file(tmp_path):
+def test_built_in_maze_learns_as_the_file(tmp_path):
     built_in = without_time(report("--interactions", "1500", cwd=tmp_path))
     of_file = without_time(report("--interactions", "1500", "--maze", MAZES / "sutton.txt",
                                   cwd=tmp_path))
@@ -499,7 +499,7 @@ def test_one_refreshed_line_on_a_terminal(tmp_path):
 
 
 def test_table_of_runs(tmp_path):
-    done = run("binary", "--runs", "3", cwd=tmp_path)
+    done = run("binary", "--runs", "3", "--interactions", "1000", cwd=tmp_path)
     rows = re.findall(r"^ +(\d+|median|min|max) .*$", done.stdout, re.MULTILINE)
     assert rows == ["1", "2", "3", "median", "min", "max"]
     assert re.search(r"optimal +all cells in \d of 3 runs", done.stdout)
@@ -522,7 +522,7 @@ def test_old_names_of_options(tmp_path):
     assert "--learner" not in shown and "--gamma" not in shown
 
 
-def test_default_solver_is_value_iteration(tmp_path):
+def test_value_iteration_learns_by_default(tmp_path):
     default = report("--interactions", "1500", cwd=tmp_path)
     named = report("--interactions", "1500", "--solver", "value-iteration", cwd=tmp_path)
     assert without_time(default) == without_time(named)

@@ -105,13 +105,13 @@ def _add_log_options(add: Any) -> None:
         "--header",
         metavar="A,B,...",
         type=_listed,
-        help="names of the columns of a log that has none",
+        help="names of the columns of a log without a header",
     )
     add(
         "--roles",
         metavar="ROLE=COLUMN,...",
         type=_roles,
-        help="what columns are where their names do not say it, such as action=valve,done=stop",
+        help="roles of columns whose names do not tell them, such as action=valve,done=stop",
     )
 
 
@@ -136,15 +136,20 @@ def _add_learn(commands: Any) -> None:
     add("--run", metavar="FILE", help="go on with a saved run in ENV")
     _add_env_options(add)
     add("--every", type=_whole, metavar="N", help="interactions between two learning steps")
-    add("--thresholds", type=_seed, metavar="N", help="most cutpoints of a component; 0: no limit")
+    add(
+        "--thresholds",
+        type=_seed,
+        metavar="N",
+        help="maximum number of cutpoints of a component; 0: no limit",
+    )
     add("--names", type=_listed, metavar="A,B,...", help="names of the numbers of an observation")
     add(
         "--bins",
         type=_bins,
         metavar="N",
-        help="how many numbers of each element of a Box of actions",
+        help="number of discrete actions for each element of a Box of actions",
     )
-    add("--hold", type=_whole, metavar="N", help="for how many steps an action is taken")
+    add("--hold", type=_whole, metavar="N", help="number of steps for which an action is held")
     add(
         "--history",
         type=_whole,
@@ -165,7 +170,7 @@ def _add_learn(commands: Any) -> None:
         metavar="FILE",
         help="write the run: show, evaluate, explain, plot and export read it",
     )
-    add("--compact", action="store_true", help="let the smallest tree act that acts as well")
+    add("--compact", action="store_true", help="use the smallest tree that acts as well")
     add("--quiet", action="store_true", help="show no progress bar")
     add("--method", choices=get_args(Method),
         help="how to learn (default: planner on real numbers from ENV, else classes)")  # fmt: skip
@@ -181,9 +186,7 @@ def _add_learn(commands: Any) -> None:
 def _add_of_a_run(commands: Any) -> None:
     def command(name: str, text: str, description: str) -> Any:
         added = commands.add_parser(name, help=text, description=description)
-        added.add_argument(
-            "file", metavar="RUN", help="a saved run; also an agent or a policy where it serves"
-        )
+        added.add_argument("file", metavar="RUN", help="a saved run, agent or policy")
         return added.add_argument
 
     command("show", "print what was saved", "Prints the tree of a saved run, agent or policy.")
@@ -265,7 +268,7 @@ def make_parser() -> argparse.ArgumentParser:
     for each in (log, convert):
         _add_log_options(each.add_argument)
         each.add_argument("--bins", type=_whole, metavar="N",
-            help="how many numbers of actions that are real")  # fmt: skip
+            help="number of discrete actions for each real action")  # fmt: skip
 
     fleet.add(commands)
     commands.add_parser(

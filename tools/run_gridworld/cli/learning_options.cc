@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "learning_options.h"
 
+#include "arguments.h"
 #include "failure.h"
 
 #include "rlvc/rlvc.h"

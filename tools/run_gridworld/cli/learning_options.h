@@ -3,7 +3,12 @@
 #ifndef RUN_GRIDWORLD_CLI_LEARNING_OPTIONS_H
 #define RUN_GRIDWORLD_CLI_LEARNING_OPTIONS_H
 
-#include "arguments.h"
+#include <cstdint>
+#include <string>
+
+namespace CLI {
+class App;
+}
 
 struct LearningOptions {
     uint8_t criterion = 0;     // RLVC_CRITERION_*

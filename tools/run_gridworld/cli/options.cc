@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include "arguments.h"
 #include "failure.h"
 
 #include "maze_defaults.h"
@@ -16,7 +17,7 @@ const std::vector<Named> solvers{{"value-iteration", RLVC_SOLVER_VALUE_ITERATION
                                  {"sarsa", RLVC_SOLVER_SARSA}};
 const std::vector<Named> scores{{"gain", RLVC_SCORE_GAIN}, {"ranks", RLVC_SCORE_RANKS}};
 
-constexpr LearningTexts texts{
+constexpr LearningTexts binary_texts{
     "returns: interactions of each step; residual: of the whole run",
     "learning steps; residual: spread evenly over the interactions",
     "probability of exploring",
@@ -41,7 +42,7 @@ gridworld_defaults defaults_for(const Options &options) {
 }
 
 void add_learning(CLI::App &app, Options &options) {
-    add_learning_options(app, options, texts);
+    add_learning_options(app, options, binary_texts);
     add_named(app, "--solver", solvers, options.solver,
               "value-iteration (default), policy-iteration, q-learning or sarsa");
     add_named(app, "--score", scores, options.score,

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "agent.h"
 
+#include "../cli/append.h"
+
 #include <new>
 
 namespace {
 
 constexpr uint32_t slice = 1u << 20; // budget of learning between two calls of `between`
-
-int append(void *ctx, const char *text, std::size_t bytes) {
-    static_cast<std::string *>(ctx)->append(text, bytes);
-    return 0;
-}
 
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compaction.h"
 
+#include "../cli/append.h"
 #include "../cli/check.h"
 
 #include <memory>
@@ -20,11 +21,6 @@ Block allocate(std::size_t bytes) {
         throw Failure("no memory for a policy of " + std::to_string(bytes) + " bytes");
     }
     return block;
-}
-
-int append(void *ctx, const char *text, std::size_t bytes) {
-    static_cast<std::string *>(ctx)->append(text, bytes);
-    return 0;
 }
 
 } // namespace

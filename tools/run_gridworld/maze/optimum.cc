@@ -12,7 +12,7 @@ namespace {
 
 constexpr double settled = 1e-12; // largest change of the last sweep
 constexpr double equal = 1e-9;
-constexpr double near = 0.01;
+constexpr double near_share = 0.01;
 
 } // namespace
 
@@ -38,5 +38,5 @@ bool Optimum::optimal(uint32_t cell, uint32_t action) const {
 }
 
 bool Optimum::near_optimal(uint32_t cell, uint32_t action) const {
-    return q(cell, action) >= value(cell) - std::max(equal, near * std::fabs(value(cell)));
+    return q(cell, action) >= value(cell) - std::max(equal, near_share * std::fabs(value(cell)));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include "../cli/arguments.h"
 #include "../cli/failure.h"
 
 #include "rlvc/rlvc.h"
@@ -19,7 +20,7 @@ const std::vector<Named> descriptors{{"sift-upright", RLVC_DESCRIPTOR_SIFT_UPRIG
                                      {"invariants", RLVC_DESCRIPTOR_INVARIANTS},
                                      {"sqrt-invariants", RLVC_DESCRIPTOR_SQRT_INVARIANTS}};
 
-constexpr LearningTexts texts{
+constexpr LearningTexts tiled_texts{
     "returns: interactions of each step (2000); residual: of the run (4500)",
     "learning steps (returns: 20; residual: 12)",
     "probability of exploring (returns: 0.8; residual: 1)",
@@ -69,14 +70,14 @@ void add_angles(CLI::App &app, const std::string &name, std::vector<int> &into, 
 }
 
 void add_world(CLI::App &app, TiledOptions &options) {
-    app.add_option(
-           "--images", options.images,
-           "pictures objN__ANGLE.* as of COIL-100, a file an object, or a folder an object, "
-           "whose pictures are poses 0, 1, ... (built-in)")
+    app.add_option("--images", options.images,
+                   "pictures of objects: files objN__ANGLE.*, as in COIL-100; or one file for each "
+                   "object; or "
+                   "one folder for each, with pictures of its poses 0, 1, ... (built-in objects)")
         ->type_name("DIR")
         ->check(file_name());
     add_whole(app, "--resize", options.side, 8, 4096,
-              "scale pictures to N x N (all of one size as they are)");
+              "scale pictures to N x N (no scaling; all must have the same size)");
     app.add_flag_callback(
            "--scale-depth", [&options] { options.reading.scale_depth = true; },
            "scale pictures of 16 bits a channel to 8")
@@ -84,26 +85,27 @@ void add_world(CLI::App &app, TiledOptions &options) {
     app.add_option("--maze", options.maze, "small (10 cells), sutton (46), or a file (sutton)")
         ->type_name("MAZE")
         ->check(file_name());
-    add_angles(app, "--poses", options.poses, "degrees to see objects from: 0,20,-20 (0)");
+    add_angles(app, "--poses", options.poses,
+               "angles in degrees from which objects are seen, such as 0,20,-20 (0)");
     add_angles(app, "--test-poses", options.test_poses,
-               "degrees held out from learning (those of --poses, in other light)");
-    add_number(app, "--light", options.light, 0, 0.99f, "light varies by +- this share (0)");
-    add_number(app, "--noise", options.noise, 0, 255, "standard deviation in grey levels (0)");
-    add_number(app, "--blur", options.blur, 0, 100, "standard deviation in pixels (0)");
+               "angles for the test only (those of --poses, in other light)");
+    add_number(app, "--light", options.light, 0, 0.99f, "vary the light by up to this share (0)");
+    add_number(app, "--noise", options.noise, 0, 255,
+               "noise: standard deviation in grey levels (0)");
+    add_number(app, "--blur", options.blur, 0, 100, "blur: standard deviation in pixels (0)");
     add_whole(app, "--jpeg", options.jpeg, 1, 100, "compress with this quality (no compression)");
     app.add_option("--backgrounds", options.backgrounds,
-                   "cut objects out of a plain background and show them before parts of these "
-                   "pictures (as they are)")
+                   "replace the plain background of objects by parts of these pictures (keep it)")
         ->type_name("DIR")
         ->check(file_name());
     app.add_option("--test-backgrounds", options.test_backgrounds,
-                   "in the test before parts of these (those of --backgrounds)")
+                   "other backgrounds for the test (those of --backgrounds)")
         ->type_name("DIR")
         ->check(file_name());
     add_number(app, "--cover", options.cover, 0, 0.9f,
                "cover up to this share of each picture (0)");
     add_number(app, "--test-cover", options.test_cover, 0, 0.9f,
-               "in the test cover just this share (as --cover)");
+               "cover exactly this share in the test (as --cover)");
     add_whole(app, "--copies", options.copies, 1, 1000,
               "pictures of each view, if light, noise, background or cover varies (8)");
 }
@@ -111,14 +113,17 @@ void add_world(CLI::App &app, TiledOptions &options) {
 void add_seeing(CLI::App &app, TiledOptions &options) {
     add_named(app, "--descriptor", descriptors, options.descriptor,
               "sift-upright (default), sift, orb, invariants or sqrt-invariants");
-    add_whole(app, "--points", options.points, 1, RLVC_POINTS_MAX, "most points of a picture (30)");
+    add_whole(app, "--points", options.points, 1, RLVC_POINTS_MAX,
+              "maximum number of points in a picture (30)");
     add_number(app, "--sigma", options.sigma, 0.5f, 8,
                "scale of the vectors in pixels (SIFT: 6; others: 2.5)");
-    add_whole(app, "--axes", options.axes, 0, 128,
-              "discriminant axes of SIFT, if views or light differ; 0: plain SIFT (16)");
+    add_whole(
+        app, "--axes", options.axes, 0, 128,
+        "discriminant axes that SIFT is reduced to if views or light differ; 0: plain SIFT (16)");
     add_number(app, "--share", options.share, 0.001f, 0.999f,
                "share of the other objects' pictures that exhibit a feature at tau (0.035)");
-    add_number(app, "--margin", options.margin, 1, 16, "margin rule; 1: a fixed tau (1.8)");
+    add_number(app, "--margin", options.margin, 1, 16,
+               "radius of a feature, [tau / X, tau * X]; 1: always tau (1.8)");
     add_whole(app, "--candidates", options.candidates, 1, 65535,
               "features tried for each class (64)");
     app.add_flag_callback(
@@ -127,7 +132,7 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
         ->disable_flag_override();
     app.add_flag_callback(
            "--pairs", [&options] { options.pairs = true; },
-           "try also as many pairs of points, for arrangements")
+           "also try as many features of two points")
         ->disable_flag_override();
     add_file(app, "--metric", options.metric, "use this metric instead of fitting one");
     add_file(app, "--save-metric", options.save_metric, "write the metric");
@@ -161,7 +166,7 @@ bool read_tiled_options(int argc, char **argv, TiledOptions &options) {
     CLI::App app("Learns a maze whose cells are seen as pictures of objects (the Tiled Gridworld, "
                  "section 6.2).\nDefaults are in parentheses.",
                  "run_gridworld tiled");
-    add_learning_options(app, options, texts);
+    add_learning_options(app, options, tiled_texts);
     add_world(app, options);
     add_seeing(app, options);
     add_file(app, "--snapshot", options.snapshot, "write the agent of the first run");

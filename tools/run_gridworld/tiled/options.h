@@ -7,6 +7,9 @@
 
 #include "objects/objects.h"
 
+#include <string>
+#include <vector>
+
 struct TiledOptions : LearningOptions {
     // The world.
     std::string images; // a folder; empty: the built-in objects

@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr double plain = 14.0; // grey levels by which a plain background may vary
+constexpr double plain_range = 14.0; // grey levels by which a plain background may vary
 
 double uniform(std::mt19937 &random, double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
@@ -60,8 +60,8 @@ cv::Mat cut_out(const cv::Mat &picture) {
         {0, 0}, {picture.cols - 1, 0}, {0, picture.rows - 1}, {picture.cols - 1, picture.rows - 1}};
     cv::Mat copy = picture.clone();
     for (const cv::Point &corner : corners) {
-        cv::floodFill(copy, flooded, corner, cv::Scalar(), nullptr, cv::Scalar::all(plain),
-                      cv::Scalar::all(plain),
+        cv::floodFill(copy, flooded, corner, cv::Scalar(), nullptr, cv::Scalar::all(plain_range),
+                      cv::Scalar::all(plain_range),
                       4 | cv::FLOODFILL_FIXED_RANGE | cv::FLOODFILL_MASK_ONLY | 255 << 8);
     }
     cv::Mat object = flooded(cv::Rect(1, 1, picture.cols, picture.rows)) == 0;
