@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Makes the pages that mkdocs builds the site from: make.py FOLDER
 
-copies the pages, the pictures and the notebooks, builds the playground, writes a page for each header of C, and takes
-RESULTS.md with its links."""
+copies the pages, the pictures and the notebooks, builds the playground, writes a page for each header of C, and one of
+the results."""
 
 import pathlib
 import re
@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 import c_reference
+import results_page
 
 import rlvc
 
@@ -34,14 +35,6 @@ def front_page(folder):
     page.write_text("---\nhide: [navigation, toc]\n---\n" + page.read_text(encoding="utf-8"), encoding="utf-8")
 
 
-def results(folder):
-    """RESULTS.md: what it links to is in the repository, not in the site."""
-    text = (ROOT / "RESULTS.md").read_text(encoding="utf-8")
-    text = text.replace("](shim/docs/pictures/", "](pictures/")
-    text = re.sub(r"\[([^\]]+)\]\((?!https?:|#|pictures/)[^)]+\)", r"`\1`", text).replace("``", "`")
-    (folder / "results.md").write_text(text, encoding="utf-8")
-
-
 def check_api():
     """Each public name of the package must be in its reference, by itself or with its module."""
     listed = set(re.findall(r"^::: (\S+)", (HERE / "api.md").read_text(encoding="utf-8"), re.MULTILINE))
@@ -60,7 +53,7 @@ def main():
     check_api()
     copy(folder)
     front_page(folder)
-    results(folder)
+    results_page.write(folder)
     c_reference.Reference().write(folder / "c")
     subprocess.run([sys.executable, ROOT / "examples/playground/build.py", folder / "playground"], check=True)
 

@@ -177,7 +177,7 @@ def learn_from(
         A name for each number of an observation. None: those of the columns.
     history : int
         How many observations are seen, with the actions between them, if one does not tell the state;
-        :class:`rlvc.History` does the same in an environment.
+        :class:`rlvc.envs.history.History` does the same in an environment.
     steps : int
         Number of learning steps. The residual criterion needs one. With the criterion of returns,
         step k looks k interactions ahead, and each step uses the whole log.

@@ -31,7 +31,7 @@ def with_history(log: Log, n: int, space: Any = None) -> Log:
     Returns
     -------
     Log
-        Its observations are those of :class:`rlvc.History`: dicts of ``now``, ``1 ago``,
+        Its observations are those of :class:`rlvc.envs.history.History`: dicts of ``now``, ``1 ago``,
         ``action 1 ago``, and so on.
 
     Raises
