@@ -93,6 +93,8 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_statistics, refused)},
     {FIELD(rlvc_statistics, sweeps)},
     {FIELD(rlvc_statistics, residual)},
+    {FIELD(rlvc_statistics, solution)},
+    {FIELD(rlvc_statistics, reserved)},
     {SIZE(rlvc_split)},
     {FIELD(rlvc_split, class_id)},
     {FIELD(rlvc_split, step)},

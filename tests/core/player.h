@@ -158,7 +158,8 @@ static inline void player_learn(player *p, uint32_t budget, rlvc_rng *rng) {
         assert_int_equal(rlvc_learn(p->agent, now, &progress), RLVC_OK);
         assert_true(progress.work <= now);
         assert_true(progress.work > 0);
-        assert_true(progress.rounds >= 1 && progress.rounds <= progress.splits + 1u);
+        assert_true(progress.rounds >= (uint32_t)(progress.splits > 0) &&
+                    progress.rounds <= progress.splits + 1u);
         assert_int_equal(rlvc_agent_check(p->agent), RLVC_OK);
     } while (!progress.done);
 }

@@ -536,6 +536,10 @@ static void test_refusals(void **state) {
 
     /* A step of rlvc_learn is under way. */
     agent = learn_ring();
+    const unsigned char percept = 0;
+    const rlvc_choice choice = {0, 0};
+    assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+    assert_int_equal(rlvc_observe(agent, choice, 0.0f, NULL, RLVC_TERMINATED), RLVC_OK);
     assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
     assert_false(progress.done);
     assert_int_equal(rlvc_learn_counts(agent, &counts, workspace, sizeof workspace, &progress),

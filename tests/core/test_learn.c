@@ -463,8 +463,89 @@ static void test_arguments(void **state) {
     player_unchanged(&p, "a refused budget");
 }
 
+/* An endless world, with a percept of one bit that says nothing. */
+static rlvc_agent *endless_world(float discount, uint32_t max_sweeps, float reward) {
+    static uint64_t memory[RLVC_AGENT_BYTES(1, 50, 4, 1, RLVC_BITS_FEATURE_BYTES, 1) / 8u];
+    const unsigned char percept = 0;
+    const rlvc_choice choice = {0, 0};
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    assert_int_equal(rlvc_bits_domain(1, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, 1), RLVC_OK);
+    config.capacity = 50;
+    config.classes = 4;
+    config.discount = discount;
+    config.max_sweeps = max_sweeps;
+    assert_int_equal(rlvc_agent_init(&config, &domain, memory, sizeof memory, &agent), RLVC_OK);
+    assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+    for (uint32_t i = 0; i < 20; i++)
+        assert_int_equal(rlvc_observe(agent, choice, reward, &percept, RLVC_GOES_ON), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    return agent;
+}
+
+static void check_solution(rlvc_agent *agent, uint32_t solution, float value) {
+    rlvc_statistics statistics;
+    float found;
+    assert_int_equal(rlvc_stats(agent, &statistics), RLVC_OK);
+    assert_int_equal(statistics.solution, solution);
+    assert_int_equal(statistics.residual == RLVC_RESIDUAL_ENDLESS,
+                     solution == RLVC_SOLUTION_ENDLESS);
+    assert_int_equal(rlvc_value(agent, 0, &found, NULL), RLVC_OK);
+    assert_true(found > value - 0.1f && found < value + 0.1f);
+}
+
+static void test_solutions(void **state) {
+    (void)state;
+    check_solution(endless_world(0.9f, 10000, -2.0f), RLVC_SOLUTION_CONVERGED, -20.0f);
+    check_solution(endless_world(0.9f, 5, -2.0f), RLVC_SOLUTION_CUT_SHORT, -8.19f);
+    check_solution(endless_world(1.0f, 100, -2.0f), RLVC_SOLUTION_ENDLESS, -100.0f);
+    check_solution(endless_world(1.0f, 100, 2.0f), RLVC_SOLUTION_ENDLESS, 100.0f);
+    check_solution(endless_world(1.0f, 100, 0.0f), RLVC_SOLUTION_CONVERGED, 0.0f);
+}
+
+/* A step without new interactions looks at the classes alone, and changes nothing. */
+static void test_nothing_new(void **state) {
+    (void)state;
+    const unsigned char percept = 1;
+    const rlvc_choice choice = {0, 0};
+    rlvc_agent *agent = endless_world(0.9f, 10000, 1.0f);
+    rlvc_statistics before, after;
+    rlvc_progress progress;
+    float value, again;
+    assert_int_equal(rlvc_stats(agent, &before), RLVC_OK);
+    assert_int_equal(rlvc_value(agent, 0, &value, NULL), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_true(progress.done && progress.rounds == 0 && progress.work == 2);
+    assert_int_equal(rlvc_stats(agent, &after), RLVC_OK);
+    assert_int_equal(rlvc_value(agent, 0, &again, NULL), RLVC_OK);
+    assert_true(value == again && after.sweeps == before.sweeps);
+    assert_int_equal(after.step, before.step + 1u);
+    /* What is observed while a step is under way is new to the next, also where it ends the episode
+     * at a percept that the step has labelled. */
+    assert_int_equal(rlvc_observe(agent, choice, 1.0f, &percept, RLVC_GOES_ON), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+    assert_false(progress.done);
+    assert_int_equal(rlvc_observe(agent, choice, 1.0f, NULL, RLVC_TERMINATED), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_int_equal(progress.rounds, 1);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_int_equal(progress.rounds, 0);
+    assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_int_equal(progress.rounds, 0);
+    assert_int_equal(rlvc_observe(agent, choice, 1.0f, NULL, RLVC_TERMINATED), RLVC_OK);
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_int_equal(progress.rounds, 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_solutions),
+        cmocka_unit_test(test_nothing_new),
         cmocka_unit_test(test_budgets_do_not_matter),
         cmocka_unit_test(test_every_callback_fails),
         cmocka_unit_test(test_callbacks_call_back),

@@ -35,7 +35,10 @@ static void check_all(rlvc_agent *agent) {
     check_labels(agent);
     for (uint32_t position = 0; position < agent->replay.count; position++) {
         const uint32_t slot = rlvc_replay_slot(&agent->replay, position);
-        const uint32_t class_id = agent->replay.label[slot];
+        uint32_t class_id;
+        assert_int_equal(
+            rlvc_predict(agent, rlvc_replay_percept(&agent->replay, slot), &class_id, NULL),
+            RLVC_OK);
         sum[class_id][agent->replay.action[slot]] += agent->replay.reward[slot];
         count[class_id][agent->replay.action[slot]]++;
     }
@@ -196,6 +199,10 @@ static void test_refusals(void **unused) {
     assert_int_equal(rlvc_prune(agent, 2e12f, 0.0f, &undone), RLVC_E_RANGE);
     assert_int_equal(rlvc_prune(agent, 0.0f, -1.0f, &undone), RLVC_E_RANGE);
     assert_int_equal(rlvc_prune(agent, 0.0f, 1001.0f, &undone), RLVC_E_RANGE);
+    const unsigned char percept = 0;
+    const rlvc_choice choice = {0, 0};
+    assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+    assert_int_equal(rlvc_observe(agent, choice, 0.0f, NULL, RLVC_TERMINATED), RLVC_OK);
     assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
     assert_int_equal(progress.done, 0);
     assert_int_equal(rlvc_prune(agent, 0.0f, 0.0f, &undone), RLVC_E_BUSY);

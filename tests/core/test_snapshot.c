@@ -415,6 +415,11 @@ static void test_resume_improving(void **state) {
     assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
     word[0] = 1u << 16;
     rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
+    assert_true(rlvc_solver_restore(&resumed, &input, &values, word));
+    word[0] = 2u << 16;
+    assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
+    word[0] = 1u << 24;
+    rlvc_solver_begin(&resumed, RLVC_SOLVER_VALUE_ITERATION);
     assert_false(rlvc_solver_restore(&resumed, &input, &values, word));
 }
 

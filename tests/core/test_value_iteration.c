@@ -125,10 +125,13 @@ static void test_model(void **state) {
 static const uint8_t kinds[] = {RLVC_SOLVER_VALUE_ITERATION, RLVC_SOLVER_POLICY_ITERATION};
 #define KINDS 2u
 
-/* V by value iteration in double, to the last bit. */
-static void solve_plainly(double v[CLASSES], double discount) {
+/* V by value iteration in double, to the last bit; of classes that do not end, if it is known which
+ * do, it stays as it is. */
+static void solve_plainly(double v[CLASSES], double discount, const int *ends) {
     for (int sweep = 0; sweep < 20000; sweep++)
         for (uint32_t c = 0; c < CLASSES; c++) {
+            if (ends && !ends[c])
+                continue;
             double best = NOTHING;
             for (uint32_t a = 0; a < HISTORY_ACTIONS; a++) {
                 uint32_t pair = c * HISTORY_ACTIONS + a;
@@ -165,7 +168,7 @@ static void check_solution(uint32_t seed, uint8_t kind, float discount) {
         memcpy(slice == 1u ? first : values.value, values.value, sizeof first);
         assert_memory_equal(values.value, first, sizeof first);
     }
-    solve_plainly(v, (double)discount);
+    solve_plainly(v, (double)discount, NULL);
     for (uint32_t c = 0; c < CLASSES; c++) {
         double error = fabs((double)values.value[c] - v[c]);
         double horizon = 1.0 / (1.0 - (double)discount);
@@ -204,11 +207,87 @@ static void test_no_discount(void **state) {
         count_plainly();
         build_model(RLVC_BUDGET_UNBOUNDED);
         rlvc_solver_cursor solver = solve(kind, 1.0f, 1e-4f, 5000, 7);
-        solve_plainly(v, 1.0);
+        solve_plainly(v, 1.0, NULL);
         assert_true(solver.residual <= 1e-4f);
         for (uint32_t c = 0; c < CLASSES; c++)
             assert_true(fabs((double)values.value[c] - v[c]) < 0.02);
     }
+}
+
+/* A random model in which classes 5 and 6 lead to each other only, at 2 a step, and others to any
+ * class or to an end. */
+static void make_endless(uint32_t seed, float step) {
+    rlvc_rng rng;
+    uint32_t packed = 0;
+    rlvc_rng_seed(&rng, seed);
+    memset(transitions, 0, sizeof transitions);
+    for (uint32_t pair = 0; pair < PAIRS; pair++) {
+        const int caught = pair / HISTORY_ACTIONS >= 5u;
+        values.begin.transition[pair] = packed;
+        values.pair.reward[pair] = caught ? 2.0f * step : step * rlvc_rng_uniform(&rng);
+        values.tried[pair] = caught || rlvc_rng_below(&rng, 4) > 0 ? 4 : 0;
+        for (uint32_t i = 0; i < values.tried[pair]; i++) {
+            const uint32_t to = caught ? 5u + i % 2u : (pair + 1u + rlvc_rng_below(&rng, 3)) % 8u;
+            transitions[pair][to] += 1.0;
+        }
+        for (uint32_t to = 0; to <= CLASSES; to++) {
+            if (transitions[pair][to] > 0.0) {
+                samples[packed].key = to == CLASSES ? RLVC_NO_CLASS : to; /* next, and count */
+                samples[packed++].slot = (uint32_t)transitions[pair][to];
+            }
+        }
+        tried[pair] = (double)values.tried[pair];
+        reward[pair] = (double)values.pair.reward[pair] * tried[pair];
+        rlvc_values_note_reward(&values, pair);
+    }
+    values.begin.transition[PAIRS] = packed;
+}
+
+/* Can an end be reached from a class, by the dense tables? One where nothing was tried is taken for
+ * one, as its value stays. */
+static void find_ends(int ends[CLASSES + 1u]) {
+    memset(ends, 0, (CLASSES + 1u) * sizeof *ends);
+    ends[CLASSES] = 1;
+    for (uint32_t c = 0; c < CLASSES; c++) {
+        double all = 0.0;
+        for (uint32_t a = 0; a < HISTORY_ACTIONS; a++)
+            all += tried[c * HISTORY_ACTIONS + a];
+        ends[c] = all == 0.0;
+    }
+    for (uint32_t i = 0; i < CLASSES; i++)
+        for (uint32_t pair = 0; pair < PAIRS; pair++)
+            for (uint32_t to = 0; to <= CLASSES; to++)
+                ends[pair / HISTORY_ACTIONS] |= transitions[pair][to] > 0.0 && ends[to];
+}
+
+/* Without a discount a class that cannot end is held at the bound, and the others settle, to what
+ * a solver in double makes of them that is told which those are. */
+static void test_endless(void **state) {
+    (void)state;
+    const float steps[] = {-1.0f, 1.0f, 0.0f};
+    uint32_t settled = 0;
+    for (uint32_t i = 0; i < 40u * KINDS; i++) {
+        const float step = steps[i / KINDS % 3u];
+        double v[CLASSES] = {0.0};
+        int ends[CLASSES + 1u];
+        make_values();
+        make_endless(i, step);
+        find_ends(ends);
+        rlvc_solver_cursor solver = solve(kinds[i % KINDS], 1.0f, 1e-4f, 2000, 1u + i % 9u);
+        for (uint32_t c = 0; c < CLASSES; c++)
+            v[c] = ends[c] ? 0.0 : 2000.0 * (double)step;
+        solve_plainly(v, 1.0, ends);
+        assert_int_equal(solver.endless, step != 0.0f);
+        assert_true((rlvc_solver_residual(&solver) == RLVC_RESIDUAL_ENDLESS) == solver.endless);
+        settled += solver.sweeps < 2000u;
+        for (uint32_t c = 0; c < CLASSES && step <= 0.0f && solver.sweeps < 2000u; c++) {
+            if (!(fabs((double)values.value[c] - v[c]) < 0.02 - 1e-3 * v[c]))
+                fail_msg("model %u, class %u: %g, not %g", i, c, (double)values.value[c], v[c]);
+        }
+        for (uint32_t c = 0; c < CLASSES; c++)
+            assert_in_range((int)fabsf(values.value[c]), 0, 2000);
+    }
+    assert_true(settled > 70u); /* of 80 */
 }
 
 /* A tolerance that binary32 cannot reach, and sweeps that run out. */
@@ -344,13 +423,10 @@ static void test_novelty_briefly(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_model),
-        cmocka_unit_test(test_solvers),
-        cmocka_unit_test(test_no_discount),
-        cmocka_unit_test(test_the_end),
-        cmocka_unit_test(test_forgotten_interactions),
-        cmocka_unit_test(test_novelty),
-        cmocka_unit_test(test_novelty_briefly),
+        cmocka_unit_test(test_model),       cmocka_unit_test(test_solvers),
+        cmocka_unit_test(test_no_discount), cmocka_unit_test(test_endless),
+        cmocka_unit_test(test_the_end),     cmocka_unit_test(test_forgotten_interactions),
+        cmocka_unit_test(test_novelty),     cmocka_unit_test(test_novelty_briefly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

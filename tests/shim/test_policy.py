@@ -174,6 +174,8 @@ def test_prune(walk):
     for wrong in ((-1.0, 0.0), (0.0, -1.0), (float("nan"), 0.0), ("much", 0.0)):
         with pytest.raises(errors.RangeError):
             agent.prune(*wrong)
+    agent.begin(ALL[1])
+    agent.observe(agent.act(), 0.0, None, terminated=True)
     agent.learn(64)
     with pytest.raises(errors.BusyError):
         agent.prune()

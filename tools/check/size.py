@@ -29,8 +29,8 @@ EXAMPLES = {  # name: heading, target, memory at most and stack set aside, a def
     "balance": ("Learning to balance a pole", "M4F", 128 * 1024, 8192, "BALANCE_SHORT=0",
                 ("main", "cart_pole", "controller", "report")),
 }
-LEAN = ("-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2", "-DRLVC_ORACLES=1",
-        "-DRLVC_DEPENDENCES=1", "-DRLVC_EFFECTS=1")  # what a controller uses, one of each
+LEAN = ("-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2", "-DRLVC_DOMAINS=2", "-DRLVC_ORACLES=1",
+        "-DRLVC_DEPENDENCES=1", "-DRLVC_EFFECTS=1", "-DRLVC_DISCOUNTS=1")  # what a controller uses, one of each
 HELPER_STACK = 64      # granted to a function of the compiler's own library
 STACK_TARGETS = ("M0", "M3", "M4F", "rv32imac")
 

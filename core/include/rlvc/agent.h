@@ -138,8 +138,9 @@ typedef struct rlvc_config {
     /* In units of reward, (0, RLVC_REWARD_MAX]. A batch solver that converges leaves values within
      * this of the fixed point, plus the error of binary32: at most 1e-6 max|V| / (1 - discount).
      * (Policy iteration: of the fixed point of a policy that no other action improves by more than
-     * this. Discount 1: only that its last sweep changed no value by more.) Under the residual
-     * criterion, targets closer than twice this count as equal. Default 0.01. */
+     * this. Discount 1: only that its last sweep changed no value by more; see
+     * RLVC_SOLUTION_ENDLESS.) Under the residual criterion, targets closer than twice this count as
+     * equal. Default 0.01. */
     float tolerance;
 
     /* Learning rate of the incremental solvers, (0, 1]. Default 0.1. */
@@ -283,7 +284,8 @@ typedef struct rlvc_progress {
  * since the next needs a fresh database.
  *
  * The unit of work is one sample looked at (SPEC.md says what each part of the method is charged);
- * RLVC_BUDGET_UNBOUNDED does the whole step. A full tree is not an error: rlvc_stats counts
+ * RLVC_BUDGET_UNBOUNDED does the whole step. A step without any new interaction would find
+ * nothing, and takes O(classes). A full tree is not an error: rlvc_stats counts
  * the refused splits.
  * @param budget [RLVC_BUDGET_MIN, UINT32_MAX]
  * @return RLVC_OK; RLVC_E_RANGE: budget; RLVC_E_CALLBACK: work done before
@@ -328,6 +330,18 @@ RLVC_API rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviat
 RLVC_API rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
                                   uint32_t *action);
 
+/* statistics.solution: what the values are. */
+#define RLVC_SOLUTION_CONVERGED 0u /* within the tolerance */
+/* They took all of max_sweeps sweeps, and may have been changing still. */
+#define RLVC_SOLUTION_CUT_SHORT 1u
+/* Discount 1, and the interactions show no way to an end from some classes, or rewards that go on
+ * for ever: the sum of rewards is not finite there. These classes' values are held at half of
+ * max_sweeps times the greatest mean reward, above or below 0; all others are within the
+ * tolerance. */
+#define RLVC_SOLUTION_ENDLESS 2u
+
+#define RLVC_RESIDUAL_ENDLESS 1e30f
+
 typedef struct rlvc_statistics {
     uint64_t interactions; /* observed since init */
     uint32_t stored;       /* of these, still in the ring */
@@ -337,7 +351,10 @@ typedef struct rlvc_statistics {
     uint32_t last_split;   /* the step k at which the newest split was made; 0 if none */
     uint32_t refused;      /* significant splits not made because the tree was full, since init */
     uint32_t sweeps;       /* of the last solution */
-    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep */
+    float residual;        /* of the last solution: max |V_new - V_old| of its last sweep, or
+                              RLVC_RESIDUAL_ENDLESS */
+    uint32_t solution;     /* RLVC_SOLUTION_*, of a batch solver */
+    uint32_t reserved;     /* 0 */
 } rlvc_statistics;
 
 /* @return RLVC_OK. O(splits). */

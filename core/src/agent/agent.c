@@ -92,7 +92,7 @@ static rlvc_status classify(rlvc_agent *agent, const void *percept, uint32_t *cl
 /* Asks the domain about a percept. */
 static rlvc_status vouch(rlvc_agent *agent, const void *percept) {
     const rlvc_domain *domain = &agent->domain;
-    if (!domain->check_percept)
+    if (!RLVC_HAS_OTHER_DOMAINS || !domain->check_percept)
         return RLVC_OK;
     agent->busy = 1;
     int refused = domain->check_percept(domain->ctx, percept);
@@ -237,6 +237,10 @@ rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics) {
     statistics->refused = agent->refused;
     statistics->sweeps = agent->sweeps;
     statistics->residual = agent->residual;
+    statistics->solution = agent->sweeps == agent->config.max_sweeps;
+    if (RLVC_HAS_UNDISCOUNTED && agent->residual == RLVC_RESIDUAL_ENDLESS)
+        statistics->solution = RLVC_SOLUTION_ENDLESS;
+    statistics->reserved = 0;
     return RLVC_OK;
 }
 

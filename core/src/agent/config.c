@@ -80,7 +80,7 @@ static int wrong_in_domain(const rlvc_domain *domain) {
         return WRONG_DOMAIN_PERCEPT_BYTES;
     if (domain->feature_bytes < 1 || domain->feature_bytes > (UINT32_C(1) << 16))
         return WRONG_DOMAIN_FEATURE_BYTES;
-    if (!domain->exhibits)
+    if (!domain->exhibits || (!RLVC_HAS_OTHER_DOMAINS && domain->kind != RLVC_DOMAIN_BITS))
         return WRONG_DOMAIN_EXHIBITS;
     if (!domain->candidates && !(RLVC_HAS_OWN_ORACLE && domain->oracle))
         return WRONG_DOMAIN_CANDIDATES;
@@ -144,7 +144,8 @@ static int wrong_in_numbers(const rlvc_config *config) {
     for (int i = 0; i < (int)(sizeof number / sizeof number[0]); i++) {
         const int may_be_0 = i < 2 || i == 6;
         const int may_be_large = i == 4 || (RLVC_HAS_EFFECT && i == 6);
-        const float most = may_be_large ? RLVC_REWARD_MAX : i < 6 ? 1.0f : 0.0f;
+        const float one = RLVC_HAS_UNDISCOUNTED || i > 0 ? 1.0f : 0.9999999f;
+        const float most = may_be_large ? RLVC_REWARD_MAX : i < 6 ? one : 0.0f;
         const int is_0 = number[i] << 1u == 0; /* or -0 */
         if (is_0 ? !may_be_0 : number[i] > rlvc_bits_of(most))
             return WRONG_DISCOUNT + i;
@@ -167,7 +168,8 @@ static const char *message_of(int wrong) {
         [NOTHING_WRONG] = "ok",
         [WRONG_DOMAIN_PERCEPT_BYTES] = "domain: percept_bytes must be within [1, 1048576]",
         [WRONG_DOMAIN_FEATURE_BYTES] = "domain: feature_bytes must be within [1, 65536]",
-        [WRONG_DOMAIN_EXHIBITS] = "domain: exhibits must not be null",
+        [WRONG_DOMAIN_EXHIBITS] =
+            "domain: exhibits must not be null, and its kind one that the library was built with",
         [WRONG_DOMAIN_CANDIDATES] = "domain: candidates and oracle must not both be null",
         [WRONG_DOMAIN_NAME] = "domain: name must not be null",
         [WRONG_ACTIONS] = "actions must be within [1, 255]",

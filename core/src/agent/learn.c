@@ -103,11 +103,24 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
     }
 }
 
+static uint16_t *label_at(const rlvc_replay *replay, uint32_t position) {
+    return &replay->label[rlvc_replay_slot(replay, position)];
+}
+
+/* A step that has no new interaction to learn from would do again what the last one did. Without
+ * one the last interaction has its label still: those of a step are given in order, abandoned
+ * steps and pruning take them away, and so does step_finish where one is yet to come. */
+static int is_learnt(const rlvc_agent *agent) {
+    const uint32_t end = agent->learner.end;
+    return end > 0 && !RLVC_BY_RETURNS(agent->config.criterion) &&
+           *label_at(&agent->replay, end - 1u) != RLVC_NO_CLASS;
+}
+
 static void begin_step(rlvc_agent *agent) {
     agent->learner.end = rlvc_replay_freeze(&agent->replay);
     agent->learner.rounds = 0;
     agent->learner.splits = 0;
-    enter(agent, RLVC_PHASE_LABEL);
+    enter(agent, is_learnt(agent) ? RLVC_PHASE_FINISH : RLVC_PHASE_LABEL);
 }
 
 /* ------------------------------------------------------------------ LABEL */
@@ -375,7 +388,7 @@ static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
         SOLVE_UNITS * rlvc_solver_step(solver, &input, &agent->values, budget / SOLVE_UNITS);
     if (solver->done) {
         agent->sweeps = solver->sweeps;
-        agent->residual = solver->residual;
+        agent->residual = rlvc_solver_residual(solver);
         if (agent->config.explore == RLVC_EXPLORE_DIRECTED)
             enter(agent, RLVC_PHASE_NOVELTY);
         else
@@ -407,6 +420,8 @@ static void step_finish(rlvc_agent *agent) {
      * database must be collected afresh (section 4.2.1). */
     if (RLVC_BY_RETURNS(agent->config.criterion))
         rlvc_replay_clear(&agent->replay);
+    if (agent->replay.frozen > learner->end)
+        *label_at(&agent->replay, learner->end) = RLVC_NO_CLASS; /* its interaction is to come */
     agent->replay.frozen = 0;
     agent->run = 0;
     agent->step++;
@@ -493,10 +508,8 @@ rlvc_status rlvc_learn_abandon(rlvc_agent *agent) {
     if (agent->learner.phase == RLVC_PHASE_IDLE)
         return RLVC_OK;
     rlvc_replay *replay = &agent->replay;
-    for (uint32_t slot = 0; slot < replay->slots; slot++)
-        replay->label[slot] = RLVC_NO_CLASS;
-    for (uint32_t c = 0; c < agent->tree.classes; c++)
-        agent->pending[c] = 0;
+    memset(replay->label, 0xff, replay->slots * sizeof *replay->label); /* RLVC_NO_CLASS */
+    memset(agent->pending, 0, agent->tree.classes * sizeof *agent->pending);
     replay->frozen = 0;
     agent->learner.phase = RLVC_PHASE_IDLE;
     agent->learner.failed = 0;

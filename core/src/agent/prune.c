@@ -143,6 +143,13 @@ static void label_again(pruner *p) {
     }
 }
 
+/* Without the label of its last interaction the next step tests the classes again. */
+static void forget_last(rlvc_replay *replay) {
+    const uint32_t end = replay->count - replay->open;
+    if (end > 0)
+        replay->label[rlvc_replay_slot(replay, end - 1u)] = RLVC_NO_CLASS;
+}
+
 rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations, uint32_t *undone) {
     if (!agent)
         return RLVC_E_NULL;
@@ -168,6 +175,8 @@ rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations, uin
     number_classes(&p);
     build_again(&p);
     label_again(&p);
+    if (*undone > 0)
+        forget_last(&agent->replay);
     memset(p.gone, 0, classes * sizeof *p.gone);
     memset(agent->values.pair.reward, 0,
            (size_t)classes * agent->config.actions * sizeof *agent->values.pair.reward);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Which solvers, scores, criteria, oracles, kinds of dependence and smallest effects are built in.
- * A controller that uses one of each need not carry the others: -DRLVC_SOLVERS=1 -DRLVC_SCORES=1
- * -DRLVC_CRITERIA=2 -DRLVC_ORACLES=1 -DRLVC_DEPENDENCES=1 -DRLVC_EFFECTS=1 leave value iteration,
- * the information gain, the residual criterion, the default refining oracle, samples that count as
- * independent and splits by any difference, and save about 4 KiB. Bit n stands for number n of
- * RLVC_SOLVER_*, RLVC_SCORE_* or RLVC_CRITERION_*, or of config.dependence; of RLVC_ORACLES 0 is
- * the default oracle and 1 the domain's own; of RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any
- * other.
+/* Which solvers, scores, criteria, domains, oracles, kinds of dependence, smallest effects and
+ * discounts are built in. A controller that uses one of each need not carry the others:
+ * -DRLVC_SOLVERS=1 -DRLVC_SCORES=1 -DRLVC_CRITERIA=2 -DRLVC_DOMAINS=2 -DRLVC_ORACLES=1
+ * -DRLVC_DEPENDENCES=1 -DRLVC_EFFECTS=1 -DRLVC_DISCOUNTS=1 leave value iteration, the information
+ * gain, the residual criterion, the domain of bits, the default refining oracle, samples that count
+ * as independent, splits by any difference and discounts below 1, and save about 4 KiB. Bit n
+ * stands for number n of RLVC_SOLVER_*, RLVC_SCORE_*, RLVC_CRITERION_* or RLVC_DOMAIN_*, or of
+ * config.dependence; of RLVC_ORACLES 0 is the default oracle and 1 the domain's own; of
+ * RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any other; of RLVC_DISCOUNTS 0 is a discount below
+ * 1, and 1 is 1.
  *
  * What is left out is compiled all the same, under conditions that are constant, so that it cannot
  * rot. */
@@ -29,6 +31,12 @@
 #ifndef RLVC_DEPENDENCES
 #define RLVC_DEPENDENCES 3u
 #endif
+#ifndef RLVC_DOMAINS
+#define RLVC_DOMAINS 31u
+#endif
+#ifndef RLVC_DISCOUNTS
+#define RLVC_DISCOUNTS 3u
+#endif
 
 #ifndef RLVC_EFFECTS
 #define RLVC_EFFECTS 3u
@@ -39,6 +47,12 @@
 #define RLVC_HAS_OWN_ORACLE ((int)((unsigned)(RLVC_ORACLES) >> 1u & 1u))
 #define RLVC_HAS_DEPENDENCE ((int)((unsigned)(RLVC_DEPENDENCES) >> 1u & 1u))
 #define RLVC_HAS_EFFECT ((int)((unsigned)(RLVC_EFFECTS) >> 1u & 1u))
+
+/* 1 if there may be domains other than that of bits. O(1). */
+#define RLVC_HAS_OTHER_DOMAINS ((RLVC_DOMAINS) != 1u << RLVC_DOMAIN_BITS)
+
+/* 1 if a discount may be 1. O(1). */
+#define RLVC_HAS_UNDISCOUNTED ((int)((unsigned)(RLVC_DISCOUNTS) >> 1u & 1u))
 
 /* 1 if a solver is built in. O(1). */
 #define RLVC_HAS_SOLVER(number) ((int)((unsigned)(RLVC_SOLVERS) >> (number)&1u))

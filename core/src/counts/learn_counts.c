@@ -53,7 +53,7 @@ static void solve(rlvc_agent *agent, rlvc_count_table *table, uint64_t total) {
     while (!solver->done)
         (void)rlvc_solver_step(solver, &input, &agent->values, RLVC_BUDGET_UNBOUNDED);
     agent->sweeps = solver->sweeps;
-    agent->residual = solver->residual;
+    agent->residual = rlvc_solver_residual(solver);
     if (agent->config.explore == RLVC_EXPLORE_DIRECTED)
         seek(agent, &input, total);
 }

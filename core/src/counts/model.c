@@ -4,6 +4,7 @@
 #include "rlvc/float_rules.h"
 
 #include "../base/exact_sum.h"
+#include "../base/solver_select.h"
 #include "../split/evidence.h"
 #include "table.h"
 #include <string.h>
@@ -69,6 +70,8 @@ void rlvc_count_model(rlvc_count_table *table, rlvc_agent *agent) {
             values->tried[pair] = rlvc_count_stored(size);
             values->pair.reward[pair] = mean_reward(&table->sum[pair], size);
         }
+        if (RLVC_HAS_UNDISCOUNTED)
+            rlvc_values_note_reward(values, pair);
         rlvc_count_table_sort(table, begin, end);
         packed = pack(table, begin, end, packed);
         begin = end;

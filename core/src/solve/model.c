@@ -4,6 +4,8 @@
 
 #include "model.h"
 
+#include "../base/solver_select.h"
+
 enum { GROUP, OPEN, REWARD, SORT, COUNT, DONE };
 
 void rlvc_model_begin(rlvc_model_cursor *model, uint32_t pairs) {
@@ -41,6 +43,8 @@ static void add_reward(rlvc_model_cursor *model, const rlvc_replay *replay, rlvc
         return;
     }
     values->pair.reward[model->pair] = rlvc_sum_mean(&model->sum);
+    if (RLVC_HAS_UNDISCOUNTED)
+        rlvc_values_note_reward(values, model->pair);
     model->at = model->begin;
     rlvc_sort_begin(&model->sort, rows.sample + model->begin, model->end - model->begin, scratch);
     model->phase = SORT;

@@ -57,8 +57,19 @@ static void end_sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input
     } else {
         solver->residual = 0.0f;
         solver->largest = 0.0f;
+        solver->endless = 0;
         restart(solver, SWEEP);
     }
+}
+
+/* V as it may be without a discount: see the head of value_iteration.h. */
+static float bounded(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                     const rlvc_values *values, float value) {
+    const float most = 0.5f * (float)input->max_sweeps * values->reward_most;
+    if (!RLVC_HAS_UNDISCOUNTED || input->discount < 1.0f || magnitude(value) < most || most == 0.0f)
+        return value;
+    solver->endless = 1;
+    return value < 0.0f ? -most : most;
 }
 
 /* V(c), once every Q(c, a) of the class is there. */
@@ -71,6 +82,7 @@ static void back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
         size_t pair = rlvc_values_pair(values, c, values->trial[c]);
         after = rlvc_values_counts(values, pair) ? values->q[pair] : before;
     }
+    after = bounded(solver, input, values, after);
     values->value[c] = after;
     float change = magnitude(after - before);
     solver->largest = magnitude(after) > solver->largest ? magnitude(after) : solver->largest;
@@ -138,7 +150,7 @@ uint32_t rlvc_solver_step(rlvc_solver_cursor *solver, const rlvc_solver_input *i
 }
 
 void rlvc_solver_mark(const rlvc_solver_cursor *solver, uint32_t word[10]) {
-    word[0] = solver->phase | (uint32_t)solver->changed << 8;
+    word[0] = solver->phase | (uint32_t)solver->changed << 8 | (uint32_t)solver->endless << 16;
     word[1] = solver->class_id;
     word[2] = solver->action;
     word[3] = solver->transition;
@@ -165,6 +177,7 @@ int rlvc_solver_restore(rlvc_solver_cursor *solver, const rlvc_solver_input *inp
                         const rlvc_values *values, const uint32_t word[10]) {
     solver->phase = (uint8_t)(word[0] & 255u);
     solver->changed = (uint8_t)(word[0] >> 8);
+    solver->endless = (uint8_t)(word[0] >> 16);
     solver->class_id = word[1];
     solver->action = word[2];
     solver->transition = word[3];
@@ -183,6 +196,6 @@ int rlvc_solver_restore(rlvc_solver_cursor *solver, const rlvc_solver_input *inp
             return 0;
     }
     return word[9] <= INT32_MAX && solver->phase <= solver->improve &&
-           solver->changed <= solver->improve && word[0] >> 16 == 0 &&
+           solver->changed <= solver->improve && solver->endless <= 1 && word[0] >> 24 == 0 &&
            is_within(solver, input, values);
 }

@@ -9,14 +9,19 @@
  *
  * A sweep contracts the error by gamma, so that after one that changed no V by more than delta, V
  * is within delta * gamma / (1 - gamma) of its fixed point: a sweep is the last when that is at
- * most config.tolerance. (For gamma = 1 nothing is known; then delta itself is held to the
- * tolerance.) Where binary32 cannot resolve so much, a few units in the last place of the largest
- * value do. */
+ * most config.tolerance. Where binary32 cannot resolve so much, a few units in the last place of
+ * the largest value do.
+ *
+ * For gamma = 1 delta itself is held to the tolerance, and a class from which the model knows no
+ * way to an end has no value: a sum of rewards that goes on for ever. A sweep adds a step to it. So
+ * no V is taken further from 0 than half of max_sweeps times the greatest mean reward, as much as a
+ * solution could add up otherwise: a class that comes there stays, and the others settle. */
 #ifndef RLVC_SRC_VALUE_ITERATION_H
 #define RLVC_SRC_VALUE_ITERATION_H
 
 #include "../base/mean.h"
 #include "../tree/values.h"
+#include "../base/solver_select.h"
 #include "../samples/rows.h"
 
 typedef struct rlvc_solver_cursor {
@@ -29,6 +34,7 @@ typedef struct rlvc_solver_cursor {
     uint32_t transition;
     uint8_t improve; /* policy iteration */
     uint8_t changed; /* the policy, in this improvement */
+    uint8_t endless; /* in this sweep a V was held at its bound */
     uint8_t phase;
     uint8_t done;
 } rlvc_solver_cursor;
@@ -41,6 +47,11 @@ typedef struct rlvc_solver_input {
     float discount;
     float tolerance;
 } rlvc_solver_input;
+
+/* What statistics.residual says of a solution that is done. O(1). */
+static inline float rlvc_solver_residual(const rlvc_solver_cursor *solver) {
+    return RLVC_HAS_UNDISCOUNTED && solver->endless ? RLVC_RESIDUAL_ENDLESS : solver->residual;
+}
 
 void rlvc_solver_begin(rlvc_solver_cursor *solver, uint8_t kind);
 

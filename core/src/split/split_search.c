@@ -100,7 +100,7 @@ rlvc_status rlvc_split_input_detect(const rlvc_split_input *input, const rlvc_sa
     uint64_t bits[RLVC_DETECT_FEATURES];
     uint32_t left = view->count - *at;
     uint32_t n = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
-    if (domain->detect) {
+    if (!RLVC_HAS_OTHER_DOMAINS || domain->detect) {
         if (domain->detect(domain->ctx, view, *at, n, features, block, bits) != 0)
             return RLVC_E_CALLBACK;
         for (uint32_t j = 0; j < block; j++) /* a bit beyond the samples would be counted */
@@ -117,7 +117,7 @@ rlvc_status rlvc_split_input_detect(const rlvc_split_input *input, const rlvc_sa
             rlvc_bit_append(word + (size_t)j * stride, *at % 64u, present);
         }
     }
-    *used = domain->detect ? n : block;
+    *used = !RLVC_HAS_OTHER_DOMAINS || domain->detect ? n : block;
     *at += n;
     return RLVC_OK;
 }

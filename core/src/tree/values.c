@@ -30,6 +30,13 @@ void rlvc_values_clear(rlvc_values *values) {
     values->trial[0] = 0;
 }
 
+void rlvc_values_note_reward(rlvc_values *values, size_t pair) {
+    const float reward = values->pair.reward[pair];
+    const float size = reward < 0.0f ? -reward : reward;
+    if (pair == 0 || size > values->reward_most)
+        values->reward_most = size;
+}
+
 void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_class) {
     for (uint32_t a = 0; a < values->actions; a++) {
         size_t to = rlvc_values_pair(values, new_class, a);

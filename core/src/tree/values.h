@@ -36,6 +36,7 @@ typedef struct rlvc_values {
     uint8_t *policy; /* [classes_max] the greedy action of the last solution */
     uint8_t *trial;  /* [classes_max] the policy under evaluation (policy iteration) */
     uint32_t actions;
+    float reward_most; /* the greatest |mean reward| of a pair in the model */
 } rlvc_values;
 
 /* Carves the tables. O(1). */
@@ -49,6 +50,9 @@ static inline size_t rlvc_values_pair(const rlvc_values *values, uint32_t class_
                                       uint32_t action) {
     return (size_t)class_id * values->actions + action;
 }
+
+/* Has the model's reward_most include the mean reward of a pair. O(1). */
+void rlvc_values_note_reward(rlvc_values *values, size_t pair);
 
 /* Gives a new class what is known of the class that it was split from. O(actions). */
 void rlvc_values_inherit(rlvc_values *values, uint32_t new_class, uint32_t old_class);

@@ -51,6 +51,10 @@ TERMINATED = 1
 TRUNCATED = 2
 BUDGET_MIN = 64
 BUDGET_UNBOUNDED = 4294967295
+SOLUTION_CONVERGED = 0
+SOLUTION_CUT_SHORT = 1
+SOLUTION_ENDLESS = 2
+RESIDUAL_ENDLESS = 1e+30
 PRINT_TEXT = 0
 PRINT_DOT = 1
 PRINT_JSON = 2
@@ -243,6 +247,7 @@ class Statistics(c.Structure):
         ("interactions", c.c_uint64), ("stored", c.c_uint32), ("step", c.c_uint32),
         ("classes", c.c_uint32), ("depth", c.c_uint32), ("last_split", c.c_uint32),
         ("refused", c.c_uint32), ("sweeps", c.c_uint32), ("residual", c.c_float),
+        ("solution", c.c_uint32), ("reserved", c.c_uint32),
     ]
 
 

@@ -16,7 +16,7 @@ from ..errors import ArrayError
 from .batch import checked
 from .config import Config
 from .handle import Handle
-from .results import Prediction, Split, Statistics
+from .results import SOLUTIONS, Prediction, Split, Statistics
 
 _predict = _native.call.rlvc_predict
 _byref = ctypes.byref
@@ -107,9 +107,8 @@ class Queries(Handle):
         """Statistics of the agent."""
         native = _native.Statistics()
         self._check(_native.call.rlvc_stats(self._handle, _byref(native)))
-        return Statistics(
-            *(getattr(native, field.name) for field in dataclasses.fields(Statistics))
-        )
+        numbers = [getattr(native, field.name) for field in dataclasses.fields(Statistics)]
+        return Statistics(*numbers[:-1], SOLUTIONS[native.solution])
 
     @property
     def classes(self) -> int:

@@ -61,6 +61,10 @@ class Progress(NamedTuple):
     done: bool
 
 
+Solution = Literal["converged", "cut short", "endless"]
+SOLUTIONS: tuple[Solution, ...] = ("converged", "cut short", "endless")
+
+
 @dataclasses.dataclass(frozen=True)
 class Statistics:
     """Statistics of an agent.
@@ -84,7 +88,11 @@ class Statistics:
     sweeps : int
         Number of sweeps of the last solution.
     residual : float
-        max |V_new - V_old| of the last sweep, in units of reward.
+        max |V_new - V_old| of the last sweep, in units of reward; 1e30 if `solution` is "endless".
+    solution : {"converged", "cut short", "endless"}
+        What the values are. cut short: the last solution took `max_sweeps` sweeps, and may have been
+        changing still. endless: the discount is 1, and from some classes no end of the episode is known;
+        their values are held at a bound, half of `max_sweeps` times the greatest mean reward.
     """
 
     interactions: int
@@ -96,6 +104,7 @@ class Statistics:
     refused: int
     sweeps: int
     residual: float
+    solution: Solution
 
 
 Acting = Literal["random", "explore", "new", "again"]

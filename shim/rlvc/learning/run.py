@@ -38,6 +38,13 @@ _VERDICTS = {
 }
 
 
+_UNSOLVED = {
+    "cut short": "the values have not converged: raise max_sweeps, or lower the discount",
+    "endless": "from some classes no end of the episode is known, and the discount is 1: their values"
+    " are a bound",
+}
+
+
 def _warning(statistics: PlannerStatistics) -> str:
     """Why a planner has learnt nothing; empty if it has learnt something."""
     if statistics.episodes > 0 and statistics.fits == 0:
@@ -155,11 +162,13 @@ class Run:
 
     @property
     def warning(self) -> str:
-        """Why nothing was learnt, in one line; empty if something was."""
+        """Why nothing was learnt, or why the values are not to be trusted, in one line; else empty."""
         if isinstance(self.learner, Planner):
             return _warning(self.learner.statistics)
         if isinstance(self.learner, PlannedPolicy):
             return self._kept[1] if self._kept else ""
+        if self.learner.statistics.solution != "converged":
+            return _UNSOLVED[self.learner.statistics.solution]
         if self.learner.classes > 1:
             return ""
         return "one class: no difference in rewards or in what follows was found"

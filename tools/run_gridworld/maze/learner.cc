@@ -127,6 +127,7 @@ RunResult Learner::result() {
     result.classes = statistics.classes;
     result.depth = statistics.depth;
     result.last_split_step = statistics.last_split;
+    result.solution = statistics.solution;
     result.bits_used = bits_used(agent_.get());
     for (const uint32_t bit : result.bits_used) {
         result.distractors_used += is_distractor(maze_, options_.distractors, bit);

@@ -37,6 +37,7 @@ struct RunResult {
     std::vector<uint32_t> bits_used;
     uint32_t distractors_used = 0; // of these bits
     uint32_t last_split_step = 0;
+    uint32_t solution = RLVC_SOLUTION_CONVERGED;
     std::size_t memory_bytes = 0;
     double seconds = 0.0;
     Policy policy;

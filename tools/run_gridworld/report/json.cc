@@ -75,6 +75,7 @@ void add_run(Json &json, const gridworld_maze &maze, const RunResult &run) {
     json["fewest_leaves"] = run.fewest.leaves;
     json["fewest_exact"] = run.fewest.exact;
     json["last_split_step"] = run.last_split_step;
+    json["converged"] = run.solution == RLVC_SOLUTION_CONVERGED;
     json["memory_bytes"] = run.memory_bytes;
     json["seconds"] = run.seconds;
     json["maze"] = rows_of(maze);

@@ -91,6 +91,12 @@ std::string describe_policy(const RunResult &run) {
            describe_fewest(run.fewest);
 }
 
+const char *describe_solution(uint32_t solution) {
+    return solution == RLVC_SOLUTION_ENDLESS
+               ? "endless: from some classes no end is known, and the discount is 1"
+               : "not converged: the last solution took as many sweeps as it may";
+}
+
 std::string row(const char *name, const std::string &value) {
     return format("  %-16s", name) + value + "\n";
 }
@@ -166,6 +172,9 @@ std::string describe_run(const Options &options, const gridworld_maze &maze, con
     return row("optimal", optimal) + row("bits used", bits) +
            row("classes", format("%u, depth %u, last split at step %u", run.classes, run.depth,
                                  run.last_split_step)) +
+           (run.solution == RLVC_SOLUTION_CONVERGED
+                ? ""
+                : row("values", describe_solution(run.solution))) +
            row("minimal policy", describe_policy(run)) +
            row("interactions", grouped(run.interactions)) +
            row("memory", grouped(run.memory_bytes) + " bytes") +
