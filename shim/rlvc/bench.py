@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _native
 from .agent.agent import Agent
+from .agent.planner import Planner
 from .agent.results import CHOICE
 from .learning.interact import ends_of
 from .learning.learn import learn
@@ -125,25 +126,50 @@ def batch_time(agent: Agent, environments: int) -> float:
     return best(steps) / (rounds * environments)
 
 
-def _walk(env: Any, count: int, seed: int) -> tuple[float, list[Any]]:
-    """Random interactions: the seconds that the environment takes alone, and what was seen."""
-    actions = np.random.default_rng(seed).integers(env.action_space.n, size=count).tolist()
-    seen, (observation, _) = [], env.reset(seed=seed)
+class _Recorder:
+    """Stands for an environment, and keeps what it is asked and what it answers."""
+
+    def __init__(self, env: Any) -> None:
+        self._env = env
+        self.seen: list[Any] = []
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._env, name)
+
+    def reset(self, **arguments: Any) -> Any:
+        """Reset the environment."""
+        self.current, info = self._env.reset(**arguments)
+        return self.current, info
+
+    def step(self, action: Any) -> Any:
+        """Act, and keep the interaction."""
+        returned = self._env.step(action)
+        self.seen.append((self.current, action, *returned[1::-1], *returned[2:4]))
+        self.current = returned[0]
+        return returned
+
+
+def _alone(env: Any, seen: list[Any], seed: int) -> float:
+    """The seconds that the environment takes by itself for the same interactions."""
+    env.reset(seed=seed)
     start = time.process_time()
-    for action in actions:
-        following, reward, terminated, truncated, _ = env.step(action)
-        seen.append((observation, action, reward, following, terminated, truncated))
-        observation = env.reset()[0] if terminated or truncated else following
-    return time.process_time() - start, seen
+    for _, action, _, _, _, _ in seen:
+        _, _, terminated, truncated, _ = env.step(action)
+        if terminated or truncated:
+            env.reset()
+    return time.process_time() - start
 
 
 def _core(run: Any, seen: list[Any], every: int) -> float:
-    """The seconds that the core takes by itself: the same number of interactions and steps."""
+    """The seconds that the core takes by itself for the same interactions and learning steps."""
     before, actions, rewards, after, terminated, truncated = zip(*seen, strict=True)
-    sides = [run.encoder.encode_many(np.array(side)) for side in (before, after)]
+    sides = [run.percepts(np.array(side)) for side in (before, after)]
+    numbers, ends = np.array(rewards, np.float32), ends_of(terminated, truncated)
+    if isinstance(run.learner, Planner):
+        planner = Planner(len(sides[0][0]), run.planner.config)
+        return _planner_alone(planner, sides, actions, numbers, ends)
     choices = np.zeros(len(seen), CHOICE)
     choices["action"] = actions
-    numbers, ends = np.array(rewards, np.float32), ends_of(terminated, truncated)
     agent = Agent(run.agent.domain, run.agent.config)
     start = time.process_time()
     for at in range(0, len(seen), every):
@@ -153,26 +179,44 @@ def _core(run: Any, seen: list[Any], every: int) -> float:
     return time.process_time() - start
 
 
+def _planner_alone(planner: Planner, sides: Any, actions: Any, rewards: Any, ends: Any) -> float:
+    """The seconds that a planner takes for the same interactions: it acts as in learning."""
+    steps = 0
+    start = time.process_time()
+    planner.begin(sides[0][0])
+    for i, action in enumerate(actions):
+        planner.act()
+        planner.observe(action, rewards[i], sides[1][i], ends[i] == 1, ends[i] == 2)
+        steps += 1
+        if ends[i] or steps == planner.config.horizon:
+            steps = 0
+            planner.learn()
+        if ends[i] and i + 1 < len(actions):
+            planner.begin(sides[0][i + 1])
+    return time.process_time() - start
+
+
 def learning_times(env: Any, interactions: int, seed: int = 1) -> tuple[float, float, float]:
     """Time :func:`rlvc.learn`, and what it cannot do without.
 
     Parameters
     ----------
     env : gymnasium.Env
-        Of Discrete actions; its observations are encoded as bits.
+        Of Discrete actions.
     interactions, seed : int
 
     Returns
     -------
     tuple of float
-        Seconds of learning, of the environment alone with random actions, and of the core alone with
-        the interactions of these.
+        Seconds of learning, and of the environment and the core alone, with the same interactions.
     """
-    alone, seen = _walk(env, interactions, seed)
     start = time.process_time()
-    run = learn(env, interactions, seed=seed, method="classes")
+    learn(env, interactions, seed=seed)
     whole = time.process_time() - start
-    return whole, alone, _core(run, seen, max(100, interactions // 100))
+    recorder: Any = _Recorder(env)
+    run = learn(recorder, interactions, seed=seed)
+    seen = recorder.seen
+    return whole, _alone(env, seen, seed), _core(run, seen, max(100, interactions // 100))
 
 
 def _tasks() -> None:
@@ -181,7 +225,7 @@ def _tasks() -> None:
     except ImportError:
         print("learning in environments is not timed: it needs Gymnasium, pip install 'rlvc[gym]'")
         return
-    for task, count in (("Taxi-v4", 30_000), ("FrozenLake-v1", 30_000)):
+    for task, count in (("Taxi-v4", 30_000), ("FrozenLake-v1", 30_000), ("CartPole-v1", 3000)):
         whole, alone, core = learning_times(gymnasium.make(task), count)
         print(
             f"{task}, {count} interactions: learn {whole:.2f} s, environment alone {alone:.2f} s, core "
@@ -195,21 +239,28 @@ def _tasks() -> None:
     )
 
 
+def _steps_alone(env: Any, environments: int, actions: Any) -> None:
+    """Step an environment, or a vector, as often as that many interactions need."""
+    env.reset(seed=1)
+    if environments == 1:
+        for action in actions:
+            _, _, terminated, truncated, _ = env.step(action)
+            if terminated or truncated:
+                env.reset()
+        return
+    done, dead = 0, np.zeros(environments, np.bool_)  # a step that only resets is no interaction
+    while done < len(actions):
+        _, _, terminated, truncated, _ = env.step(actions[done])
+        done += environments - int(dead.sum())
+        dead = terminated | truncated
+
+
 def _beside(env: Any, environments: int, count: int = 20_000) -> float:
     """Seconds that an interaction takes beside the environment's own step, without learning steps."""
     random = np.random.default_rng(1)
-    shape = environments if environments > 1 else None
-    actions = [random.integers(4, size=shape) for _ in range(count // environments)]
-    env.reset(seed=1)
-    start = time.process_time()
-    for action in actions:
-        _, _, terminated, truncated, _ = env.step(action)
-        if environments == 1 and (terminated or truncated):
-            env.reset()
-    alone = time.process_time() - start
-    start = time.process_time()
-    learn(env, count, seed=1, every=count, classes=1)
-    return (time.process_time() - start - alone) / count
+    actions = random.integers(4, size=(count, environments) if environments > 1 else count)
+    alone = best(lambda: _steps_alone(env, environments, actions), 5)
+    return (best(lambda: learn(env, count, seed=1, every=count, classes=1), 5) - alone) / count
 
 
 def main() -> None:
