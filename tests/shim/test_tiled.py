@@ -5,6 +5,7 @@ RLVC_RUN_GRIDWORLD names the tool for the test that holds the package to it."""
 
 import json
 import os
+import pickle
 import subprocess
 
 import gymnasium
@@ -14,6 +15,7 @@ from conftest import without_vision
 from gymnasium import spaces
 from gymnasium.utils.env_checker import check_env
 from matplotlib.patches import Circle
+from test_run import compiled
 
 import rlvc
 import rlvc.envs
@@ -90,6 +92,37 @@ def test_it_is_learnt_from_pictures(learnt):
             assert run.act(picture) in (wanted if isinstance(wanted, tuple) else (wanted,)), cell
     with pytest.raises(errors.PictureError):
         run.act(picture.astype(float))
+
+
+def seen_otherwise(pictures, count):
+    """Pictures that are shifted, lighter or darker, and noisy."""
+    random = np.random.default_rng(3)
+    for _ in range(count):
+        picture = pictures[random.integers(len(pictures))].astype(np.float32)
+        shifted = np.roll(picture, random.integers(-9, 10, 2), (0, 1)) + random.integers(-30, 31)
+        noise = random.normal(0, 12 * random.random(), picture.shape)
+        yield (shifted + noise).clip(0, 255).astype(np.uint8)
+
+
+@sees
+def test_an_eye_acts_as_its_copies_and_its_c(learnt, tmp_path):
+    """As test_run.py shows of other encoders. RLVC_PICTURES=10000 takes 100 s."""
+    from rlvc import vision
+
+    env, known, run = learnt
+    eye = vision.Eye(known.extractor, cache=1 << 20)
+    run = rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+    pictures = env.objects.pictures.reshape(-1, *env.objects.pictures.shape[2:])
+    seen = list(seen_otherwise(pictures, int(os.environ.get("RLVC_PICTURES", "300"))))
+    expected = [run.predict(picture) for picture in seen]
+    assert len(set(expected)) > 1
+    run.save(tmp_path / "run.rlvc")
+    loaded, copied = rlvc.load(tmp_path / "run.rlvc", encoder=eye), pickle.loads(pickle.dumps(run))
+    assert [loaded.predict(picture) for picture in seen] == expected
+    assert [copied.predict(picture) for picture in seen[:100]] == expected[:100]
+    act = compiled(run.export_c(name="kept"), "kept", tmp_path)
+    percepts = [np.frombuffer(eye.encode(picture), np.uint8).copy() for picture in seen]
+    assert [act(percept.ctypes.data) for percept in percepts] == expected
 
 
 @sees
