@@ -30,7 +30,7 @@ def shortest(number: float) -> str:
 
 
 def explain(text: str, names: Sequence[str], flags: Sequence[bool] = ()) -> str:
-    """Replace ``bit N`` and ``x[N]`` in a text by the name number N, and spell cutpoints shortly.
+    """Replace ``bit N`` and ``x[N]`` in a text by the name number N.
 
     Parameters
     ----------
@@ -52,6 +52,6 @@ def explain(text: str, names: Sequence[str], flags: Sequence[bool] = ()) -> str:
             return names[index]
         if index < len(flags) and flags[index] and 0 <= float(match[3]) < 1:
             return names[index]
-        return f"{names[index]} > {shortest(float(match[3]))}"
+        return f"{names[index]} > {match[3]}"
 
     return _TEST.sub(name, text)

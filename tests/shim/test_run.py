@@ -3,6 +3,7 @@
 
 import ctypes
 import pickle
+import re
 import subprocess
 
 import gymnasium
@@ -245,3 +246,28 @@ def test_a_planner_goes_on_where_it_stopped(tmp_path):
     assert run.text() == other.text()
     assert run.history == other.history
     assert run.interactions == 1000
+
+
+def test_numbers_read_back_from_every_form(tmp_path):
+    """Values and cutpoints as text, DOT, JSON and C are the floats that act."""
+    run = rlvc.learn(Guess("thresholds"), 3000, seed=1, method="classes", discount=0.0)
+    leaves = [node for node in run.tree["nodes"] if "value" in node]
+    cuts = {np.float32(node["test"].split(" > ")[1]) for node in run.tree["nodes"] if "test" in node}
+    values = {np.float32(leaf["value"]) for leaf in leaves}
+    assert values == set(run.agent.q.max(axis=1))
+    for form, tests in (("text", r"x\[\d\] > (\S+)\?"), ("dot", r'"x\[\d\] > (\S+)"')):
+        text = run.text(form)
+        assert {np.float32(v) for v in re.findall(r"value (-?[\d.e+-]+)", text)} == values
+        assert {np.float32(v) for v in re.findall(tests, text)} == cuts
+    header = run.export_c()
+    kept = {np.float32(v) for v in re.findall(r"(-?\d[\d.e+-]*)f\b", header)}
+    assert kept >= {np.float32(n["test"].split(" > ")[1]) for n in run.compact().tree["nodes"] if "test" in n}
+    seen = np.array([0.1, 0.3, -2.0])
+    first = run.explain(seen).steps[0]
+    assert np.float32(re.search(r"\((\S+)\)", str(first))[1]) == np.float32(first.value)
+
+
+def test_names_are_put_in_once():
+    run = rlvc.learn(Guess("number"), 3000, seed=1, discount=0.0)
+    assert "number bit" in run.text("dot")
+    assert "number number" not in run.text("dot")

@@ -111,9 +111,9 @@ typedef struct rlvc_domain {
 
 #define RLVC_NAME_BYTES 64u /* the room that name() gets */
 
-/* Spells a finite number in decimal as rlvc_print does, for name(): to at most `digits` significant
- * digits, [1, 9], nine of which tell any two floats apart. At most `room` - 1 characters, room at
- * least 1, and a final 0. O(1).
+/* Spells a finite number in decimal as rlvc_print does, for name(): by the fewest significant
+ * digits that read back as the same float, at most nine, or rounded to `digits`, [1, 9], if these
+ * are fewer. At most `room` - 1 characters, room at least 1, and a final 0. O(1).
  * @return how many characters. */
 RLVC_API uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room);
 

@@ -17,9 +17,9 @@ static void number(printer *p, const char *before, uint32_t n) {
     rlvc_text_uint(&p->text, n);
 }
 
-static void real(printer *p, const char *before, float x, uint32_t digits) {
+static void real(printer *p, const char *before, float x) {
     rlvc_text_string(&p->text, before);
-    rlvc_text_float(&p->text, x, digits);
+    rlvc_text_float(&p->text, x, 9);
 }
 
 /* The name of the feature that an internal node tests. */
@@ -63,7 +63,7 @@ static void print_text(printer *p, uint32_t node) {
     }
     number(p, "class ", c);
     number(p, ": action ", p->policy[c]);
-    real(p, ", value ", p->values->value[c], 6);
+    real(p, ", value ", p->values->value[c]);
     number(p, ", ", tried(p->values, c));
     string(p, " interactions\n");
 }
@@ -80,7 +80,7 @@ static void print_dot(printer *p, uint32_t node) {
             number(p, "class ", c);
         number(p, p->values ? "\\naction " : "action ", p->policy[c]);
         if (p->values)
-            real(p, "\\nvalue ", p->values->value[c], 4);
+            real(p, "\\nvalue ", p->values->value[c]);
         string(p, "\"];\n");
         return;
     }
@@ -104,9 +104,9 @@ static void print_json_class(printer *p, uint32_t c) {
         string(p, "}");
         return;
     }
-    real(p, ", \"value\": ", values->value[c], 9);
+    real(p, ", \"value\": ", values->value[c]);
     for (uint32_t a = 0; a < values->actions; a++)
-        real(p, a ? ", " : ", \"q\": [", values->q[rlvc_values_pair(values, c, a)], 9);
+        real(p, a ? ", " : ", \"q\": [", values->q[rlvc_values_pair(values, c, a)]);
     for (uint32_t a = 0; a < values->actions; a++)
         number(p, a ? ", " : "], \"samples\": [", values->tried[rlvc_values_pair(values, c, a)]);
     string(p, "]}");
@@ -128,9 +128,9 @@ static void print_json_test(printer *p, uint32_t node) {
     number(p, ", \"step\": ", about->step);
     number(p, ", \"action\": ", about->action);
     number(p, ", \"samples\": ", about->samples);
-    real(p, ", \"log_tests\": ", about->log_tests, 9);
-    real(p, ", \"score\": ", about->score, 9);
-    real(p, ", \"log_p\": ", about->log_p, 9);
+    real(p, ", \"log_tests\": ", about->log_tests);
+    real(p, ", \"score\": ", about->score);
+    real(p, ", \"log_p\": ", about->log_p);
     string(p, "}");
 }
 

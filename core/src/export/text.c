@@ -53,31 +53,52 @@ static uint64_t truncated(const wide *x) {
     return x->exponent > -64 ? x->mantissa >> -x->exponent : 0;
 }
 
-/* The decimal digits of a positive float: returns an integer of exactly `digits` digits, of which
- * the first stands for 10^*power. Scaling by ten loses less than 2^-60 a time, so that the result
- * is within 2^-54 of the float: far nearer than a ninth digit. */
-static uint64_t decimal(uint32_t bits, uint32_t digits, int32_t *power) {
+#define EXACT_DIGITS 16u
+static const uint64_t exact_low = 1000000000000000u; /* the least number of so many digits */
+
+/* The decimal digits of a positive float: an integer of EXACT_DIGITS digits, of which the first
+ * stands for 10^*power. Scaling by ten loses less than 2^-60 a time, so that the result is within
+ * 2^-54 of the float, or two units: far nearer than a ninth digit. */
+static uint64_t decimal(uint32_t bits, int32_t *power) {
     wide x = widen(bits);
-    uint64_t low = 1;
-    for (uint32_t i = 1; i < digits; i++)
-        low *= 10u;
-    *power = (int32_t)digits - 1;
-    while (x.exponent > -1 || truncated(&x) >= low * 10u) { /* x := x / 10 */
+    *power = (int32_t)EXACT_DIGITS - 1;
+    while (x.exponent > -1 || truncated(&x) >= exact_low * 10u) { /* x := x / 10 */
         x.mantissa /= 10u;
         normalize(&x);
         (*power)++;
     }
-    while (truncated(&x) < low) { /* x := x * 10 */
+    while (truncated(&x) < exact_low) { /* x := x * 10 */
         x.mantissa = (x.mantissa >> 4) * 10u;
         x.exponent += 4;
         normalize(&x);
         (*power)--;
     }
-    uint64_t whole = truncated(&x) + (x.mantissa >> (-x.exponent - 1) & 1u);
-    if (whole < low * 10u)
-        return whole;
-    (*power)++; /* 99.96 is 100 by three digits */
-    return low;
+    return truncated(&x) + (x.mantissa >> (-x.exponent - 1) & 1u);
+}
+
+/* Rounds these digits to the fewest that read back as the float, or to `digits`: returns an integer
+ * of *count digits. They read back if they are nearer than half the step to the next float, which
+ * is half as long below a power of two. */
+static uint64_t fewest(uint64_t exact, uint32_t bits, uint32_t digits, uint32_t *count) {
+    const uint32_t fraction = bits & 0x7fffffu;
+    const uint32_t mantissa = fraction | (bits >> 23 > 0 ? 0x800000u : 0u);
+    const uint64_t half = exact / (fraction > 0 ? 2u * mantissa : 4u * mantissa) - 8u;
+    uint64_t unit = exact_low * 10u, rounded, off;
+    *count = 0;
+    do {
+        unit /= 10u;
+        (*count)++;
+        rounded = (exact + unit / 2u) / unit * unit;
+        off = rounded > exact ? rounded - exact : exact - rounded;
+    } while (*count < digits && off >= half);
+    return rounded / unit;
+}
+
+static uint64_t ten_to(uint32_t power) {
+    uint64_t ten = 1;
+    for (; power > 0; power--)
+        ten *= 10u;
+    return ten;
 }
 
 /* The digits of `whole` into text[0 .. count - 1], without the zeros at the end; returns their
@@ -123,8 +144,15 @@ void rlvc_text_float(rlvc_text *text, float number, uint32_t digits) {
         put(text, "-", 1);
     char digit[9];
     int32_t power = 0;
-    uint64_t whole = decimal(bits & 0x7fffffffu, digits, &power);
-    uint32_t count = spell(whole, digits, digit);
+    uint32_t count;
+    uint64_t exact = decimal(bits & 0x7fffffffu, &power);
+    uint64_t whole = fewest(exact, bits & 0x7fffffffu, digits, &count);
+    if (whole == ten_to(count)) { /* 99.96 is 100 by three digits */
+        whole = 1;
+        count = 1;
+        power++;
+    }
+    count = spell(whole, count, digit);
     if (power >= -5 && power < 9) {
         put_fixed(text, digit, count, power);
         return;

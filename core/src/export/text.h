@@ -18,9 +18,9 @@ void rlvc_text_string(rlvc_text *text, const char *string);
 /* A whole number in decimal. */
 void rlvc_text_uint(rlvc_text *text, uint32_t number);
 
-/* A finite number in decimal, as JSON has it, rounded to at most `digits` (1 to 9) significant
- * digits; nine tell any two floats apart. By integers only, so that every target prints the same.
- * O(1): at most 50 divisions. */
+/* A finite number in decimal, as JSON has it, by the fewest significant digits that read back as
+ * the same float, rounded to `digits` (1 to 9) if it takes more; it never takes more than nine. By
+ * integers only, so that every target prints the same. O(1): at most 100 divisions. */
 void rlvc_text_float(rlvc_text *text, float number, uint32_t digits);
 
 #endif

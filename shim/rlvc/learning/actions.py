@@ -25,6 +25,7 @@ import numpy.typing as npt
 
 from ..checks import whole
 from ..errors import ConfigError, LogError, SpaceError
+from ..words import shortest
 
 MOST = 255
 HOLD_MAX = 10**6
@@ -76,7 +77,8 @@ class Actions:
         """Return an action as text, for trees and figures."""
         if self.table is None:
             return self.words[index] if self.words else f"action {index + self.start}"
-        numbers = ", ".join(f"{float(value):.4g}" for value in np.ravel(self.table[index]))
+        spelled = str if self.table.dtype.kind in "biu" else shortest
+        numbers = ", ".join(spelled(value) for value in np.ravel(self.table[index]))
         return numbers if np.size(self.table[index]) == 1 else f"({numbers})"
 
     def plain(self) -> bool:

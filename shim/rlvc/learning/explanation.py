@@ -13,6 +13,7 @@ from ..agent.agent import Agent
 from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..errors import RunError
+from ..words import shortest
 from .encode import Encoder
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ class Step:
 
     def __str__(self) -> str:
         """Describe it in one line."""
-        value = "" if self.value is None else f" ({self.value:.6g})"
+        value = "" if self.value is None else f" ({shortest(self.value)})"
         return f"{self.test}?{value} {'yes' if self.passed else 'no'}"
 
 
@@ -97,7 +98,7 @@ class Explanation:
 
     def __str__(self) -> str:
         """Describe it in one line for each test."""
-        value = "" if self.value is None else f", value {self.value:.4g}"
+        value = "" if self.value is None else f", value {shortest(self.value)}"
         return "\n".join([*map(str, self.steps), f"-> {self.action_name}{value}"])
 
 

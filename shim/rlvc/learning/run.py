@@ -392,6 +392,9 @@ class Run:
         """Replace the numbers of bits, components and actions in a text by their names."""
         if self.encoder is not None and hasattr(self.encoder, "explain"):
             text = self.encoder.explain(text)
+        return self._in_actions(text)
+
+    def _in_actions(self, text: str) -> str:
         if self.actions.plain():
             return text
         return re.sub(r"\baction (\d+)\b", lambda match: self.actions.name(int(match[1])), text)
@@ -417,8 +420,9 @@ class Run:
         text = self.acting.print(form)
         if form == "dot" and type(self.encoder) is Encoder:  # words of a log are in quotes
             names = [name.replace('"', '\\"') for name in self.encoder.names]
-            text = explain(text, names, self.encoder.flags)
-        text = self.in_words(text)
+            text = self._in_actions(explain(text, names, self.encoder.flags))
+        else:
+            text = self.in_words(text)
         return f"{text}{self.warning}\n" if self.warning and form == "text" else text
 
     def explain(self, observation: Any) -> Explanation:
