@@ -276,8 +276,8 @@ static void test_names(void **state) {
                                        {-1.23456789e-10f, 0.0f, 1023, 0},
                                        {1.0f, 0.5f, 0, 2},
                                        {-1e15f, -1.5e-7f, 62, 63}};
-    const char *const names[] = {"x[3] > 0.25", "x[1023] > -1.23456786e-10", "x[0] + 0.5 x[2] > 1",
-                                 "x[62] - 1.50000005e-7 x[63] > -9.99999987e+14"};
+    const char *const names[] = {"x[3] > 0.25", "x[1023] > -1.2345679e-10", "x[0] + 0.5 x[2] > 1",
+                                 "x[62] - 1.5e-7 x[63] > -1e+15"};
     fixture f;
     (void)state;
     open_fixture(&f, 8, 0);
