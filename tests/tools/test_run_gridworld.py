@@ -165,6 +165,8 @@ PLAIN = ["..#*", ".#..", "...."]
     ".\t.\t#\t*\n.\t#\t.\t.\n.\t.\t.\t.\n",
     "S.#G\n.#..\n....\n",
     "  #E\n #  \n S  \n",
+    "A #B\n #  \n   A\n",
+    "S XG\n X  \n  P \n",
     "SFHG\nFHFF\nFFFF\n",
     "P %.\n %  \n   P\n",
     "3\n0 0 1 2\n0 1 0 0\n0 0 0 0\n",

@@ -12,10 +12,12 @@ namespace {
 using Rows = std::vector<std::string>;
 
 // The dialects in use. The first one that knows all signs of a maze, and an exit and a free cell
-// among them, holds: the plain one; letters for start and goal; blanks as free cells; FrozenLake,
-// whose holes are walls here; Pacman, whose food is the exit; numbers, with 2 or 3 as the exit.
+// among them, holds: the plain one; letters for start and goal, or A and B; blanks as free cells; X
+// as walls; FrozenLake, whose holes are walls here; Pacman, whose food is the exit; numbers, with 2
+// or 3 as the exit.
 const Legend dialects[] = {
-    {"#", ".", "*"},    {"#", ".SAR", "GEX*"}, {"#", " SAPR.", "GE*"}, {"H", "SF", "G"},
+    {"#", ".", "*"},    {"#", ".SAR", "GEX*"}, {"#", " SAPR.", "GE*"},
+    {"#", " .A", "B"},  {"X", " .SP", "GE*"},  {"H", "SF", "G"},
     {"%", " PGo", "."}, {"1", "0", "2"},       {"1", "02", "3"},
 };
 

@@ -45,7 +45,9 @@ Maze::Maze(const std::string &file, const std::string &legend) : maze_(gridworld
     gridworld_error error;
     cells_.resize(GRIDWORLD_CELLS_MAX);
     if (gridworld_parse(&maze_, text.data(), text.size(), cells_.data(), cells_.size(), &error)) {
-        throw Failure(place(file, error) + error.what);
+        const bool sign = std::strncmp(error.what, "not a cell", 10) == 0;
+        throw Failure(place(file, error) + error.what +
+                      (sign ? "; --legend wall=...,free=...,exit=... tells of other signs" : ""));
     }
 }
 
