@@ -143,9 +143,9 @@ static int wrong_in_numbers(const rlvc_config *config) {
     memcpy(number, fields_of(config, offsetof(rlvc_config, discount)), sizeof number);
     for (int i = 0; i < (int)(sizeof number / sizeof number[0]); i++) {
         const int may_be_0 = i < 2 || i == 6;
-        const int may_be_large = i == 4 || (RLVC_HAS_EFFECT && i == 6);
         const float one = RLVC_HAS_UNDISCOUNTED || i > 0 ? 1.0f : 0.9999999f;
-        const float most = may_be_large ? RLVC_REWARD_MAX : i < 6 ? one : 0.0f;
+        const float most_worth = RLVC_HAS_EFFECT ? RLVC_REWARD_MAX : 0.0f;
+        const float most = i == 4 ? RLVC_REWARD_MAX : i < 6 ? one : most_worth;
         const int is_0 = number[i] << 1u == 0; /* or -0 */
         if (is_0 ? !may_be_0 : number[i] > rlvc_bits_of(most))
             return WRONG_DISCOUNT + i;
