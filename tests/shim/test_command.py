@@ -257,3 +257,14 @@ def test_roles_and_the_past(tmp_path, capsys):
     assert command.main(["evaluate", run, *lake, *played]) == 0
     assert command.main(["evaluate", run, *lake[:-2], *played]) == 1
     assert "an observation without 'now'" in capsys.readouterr().err
+
+
+def test_several_seeds(capsys):
+    pytest.importorskip("gymnasium")
+    lake = ["learn", "FrozenLake-v1", "--env-arg", "is_slippery=False", "--quiet", "--interactions", "1500"]
+    assert command.main([*lake, "--seed", "4", "--seeds", "2", "--discount", "0.9", "--episodes", "3"]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert [line.split(":")[0] for line in told] == ["seed 4", "seed 5", "2 seeds"]
+    assert told[0].startswith("seed 4: return 1 +- 0 (3 episodes); ")
+    assert command.main([*lake, "--seeds", "2", "--save", "run"]) == 1
+    assert "leave --save out" in capsys.readouterr().err

@@ -84,21 +84,15 @@ def learn_command(arguments: argparse.Namespace) -> int:
     """Learn, write and print what was learnt."""
     if (arguments.env is None) == (arguments.log is None):
         raise Error("learn: give either ENV or --log FILE")
+    if arguments.seeds is not None:
+        return _learn_often(arguments)
     env = None
     try:
         if arguments.env is not None:
             env = _with_past(_environment(arguments.env, arguments.env_arg), arguments.history)
-            options: tuple[str, ...] = ("every", "thresholds", "names", "bins", "hold", "method")
-            run = learn(
-                env,
-                arguments.interactions,
-                seed=arguments.seed,
-                progress=not arguments.quiet,
-                run=load(arguments.run) if arguments.run else None,
-                **_chosen(arguments, *options),
-            )
+            run = _learnt(env, arguments, load(arguments.run) if arguments.run else None)
         else:
-            options = (
+            options: tuple[str, ...] = (
                 *("columns", "header", "roles", "actions", "bins", "thresholds", "names"),
                 *("history", "steps"),
             )
@@ -117,6 +111,41 @@ def learn_command(arguments: argparse.Namespace) -> int:
         evaluation = run.evaluate(env, arguments.episodes, seed=arguments.seed)
         cut = f" ({evaluation.cut} cut off)" if evaluation.cut else ""
         print(f"mean return of {arguments.episodes} episodes{cut}: {evaluation.mean:.4g}")
+    return 0
+
+
+def _learnt(env: Any, arguments: argparse.Namespace, run: Run | None = None) -> Run:
+    """Learn in an environment."""
+    options = ("every", "thresholds", "names", "bins", "hold", "method")
+    return learn(
+        env,
+        arguments.interactions,
+        seed=arguments.seed,
+        progress=not arguments.quiet,
+        run=run,
+        **_chosen(arguments, *options),
+    )
+
+
+def _learn_often(arguments: argparse.Namespace) -> int:
+    """Learn with several seeds, and print each return as it comes."""
+    for name in ("log", "run", "save", "json", "c"):
+        if getattr(arguments, name) is not None:
+            raise ConfigError(f"--seeds: goes with an environment alone: leave --{name} out")
+    returns = []
+    for seed in range(arguments.seed, arguments.seed + arguments.seeds):
+        arguments.seed = seed
+        env = _with_past(_environment(arguments.env, arguments.env_arg), arguments.history)
+        run = _learnt(env, arguments)
+        if run.interrupted:
+            print("rlvc: interrupted: the seeds above are complete", file=sys.stderr)
+            return INTERRUPTED
+        if arguments.compact:
+            run.compact()
+        evaluation = run.evaluate(env, max(1, arguments.episodes), seed=seed)
+        returns.append(evaluation.mean)
+        print(f"seed {seed}: return {evaluation}; {_counted(run)}", flush=True)
+    print(f"{len(returns)} seeds: median return {np.median(returns):.4g}, least {min(returns):.4g}")
     return 0
 
 

@@ -133,6 +133,12 @@ def _add_learn(commands: Any) -> None:
         help="number of interactions with ENV (default: %(default)s)")  # fmt: skip
     add("--seed", type=_seed, metavar="N", default=1,
         help="seed of all random numbers (default: %(default)s)")  # fmt: skip
+    add(
+        "--seeds",
+        type=_whole,
+        metavar="N",
+        help="learn N times in ENV, from --seed on, and print the return of each seed",
+    )
     add("--run", metavar="FILE", help="go on with a saved run in ENV")
     _add_env_options(add)
     add("--every", type=_whole, metavar="N", help="interactions between two learning steps")
