@@ -108,7 +108,8 @@ class Queries(Handle):
         native = _native.Statistics()
         self._check(_native.call.rlvc_stats(self._handle, _byref(native)))
         numbers = [getattr(native, field.name) for field in dataclasses.fields(Statistics)]
-        return Statistics(*numbers[:-1], SOLUTIONS[native.solution])
+        numbers[-1] = SOLUTIONS[native.solution]
+        return Statistics(*numbers)
 
     @property
     def classes(self) -> int:
