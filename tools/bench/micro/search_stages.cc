@@ -73,8 +73,13 @@ Winner search(const std::vector<float> &target, const std::vector<unsigned char>
     replay.percept = const_cast<unsigned char *>(percepts.data());
     replay.percept_bytes = percept_bytes;
     rlvc_target_input aliasing = {};
-    const rlvc_split_input input = {
-        &space, &replay, &aliasing, &domain, config.min_samples, config.score == RLVC_SCORE_RANKS};
+    const rlvc_split_input input = {&space,
+                                    &replay,
+                                    &aliasing,
+                                    &domain,
+                                    config.min_samples,
+                                    config.smallest_effect,
+                                    config.score == RLVC_SCORE_RANKS};
     const uint32_t first[2] = {0, config.capacity};
     rlvc_split_cursor search;
     rlvc_split_search_begin(&search, &input, first);
