@@ -174,10 +174,11 @@ def test_version(tree):
     (tree.folder / "shim/rlvc").mkdir(parents=True)
     tree.write("shim/rlvc/_version.py", '__version__ = "1.2.3"\n')
     tree.write("CHANGELOG.md", "## [1.2.3] - unreleased\n")
-    for folder in ("tools/packages/arduino", "tools/packages/esp_idf"):
+    for folder in ("tools/packages/arduino", "tools/packages/esp_idf", "tools/packages/vcpkg"):
         (tree.folder / folder).mkdir(parents=True)
     tree.write("library.json", '{\n    "version": "1.2.3"\n}\n')
     tree.write("tools/packages/arduino/library.properties", "version=1.2.3\n")
+    tree.write("tools/packages/vcpkg/vcpkg.json", '{\n  "version": "1.2.3"\n}\n')
     tree.write("tools/packages/esp_idf/idf_component.yml", 'version: "1.2.3"\n')
     assert tree.check("version", "--project", "1.2.3")[0] == 0
     assert tree.check("version", "--project", "1.2.4")[0] == 1
