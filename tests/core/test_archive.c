@@ -78,10 +78,10 @@ static void test_scores_follow_the_formula(void **state) {
     assert_true(fabs((double)archive.beta - beta) < 1e-4);
     assert_true(fabs((double)archive.common - common) < 1e-3);
     assert_true(fabs((double)archive.deviation - sqrt((squares + 64.0) / 19.0)) < 1e-2);
-    assert_true(fabs((double)archive.trial[0].score - (beta * 60.0 + (sum[0] + common) / 11.0)) <
-                1e-2);
-    assert_true(fabs((double)archive.trial[1].score - (beta * 40.0 + (sum[1] + common) / 11.0)) <
-                1e-2);
+    double scores[2] = {beta * 60.0 + (sum[0] + 4.0 * common) / 14.0,
+                        beta * 40.0 + (sum[1] + 4.0 * common) / 14.0};
+    assert_true(fabs((double)archive.trial[0].score - scores[0]) < 1e-2);
+    assert_true(fabs((double)archive.trial[1].score - scores[1]) < 1e-2);
     assert_false(rlvc_archive_flat(&archive, 1e6f));
 }
 
@@ -172,6 +172,24 @@ static void test_choosing(void **state) {
     assert_int_equal(rlvc_archive_race(&archive), 5);
 }
 
+/* Of two that earned the same the smaller one is chosen, whether returns are gains or losses. */
+static void test_the_smaller_is_chosen(void **state) {
+    (void)state;
+    for (float score = -100.0f; score < 200.0f; score += 200.0f) {
+        make();
+        for (uint32_t i = 0; i < 3; i++) {
+            tree.leaves = (uint8_t)(i == 1 ? 4u : 6u);
+            (void)rlvc_archive_add(&archive, &tree, 0.0f);
+            note(i, 0.0f, score);
+            archive.trial[i].score = i == 2 ? score + 0.3f : score;
+        }
+        assert_int_equal(rlvc_archive_best(&archive, 0.5f), 1);
+        assert_int_equal(rlvc_archive_best(&archive, 0.0f), 2);
+        archive.trial[2].score = score + 0.5f; /* two leaves are charged 0.4 */
+        assert_int_equal(rlvc_archive_best(&archive, 0.5f), 2);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_untried),
@@ -181,6 +199,7 @@ int main(void) {
         cmocka_unit_test(test_old_episodes_leave),
         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_choosing),
+        cmocka_unit_test(test_the_smaller_is_chosen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

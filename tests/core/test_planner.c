@@ -208,6 +208,39 @@ static void test_searches_pause(void **state) {
     assert_int_equal(planner->searched, planner->experience.total);
 }
 
+/* An episode of one interaction by a tree that explores; it is not learnt from. */
+static void explore_once(player *p, uint32_t action, float reward) {
+    rlvc_small_tree_constant(&p->planner->next.tree, action);
+    p->planner->next.why = RLVC_PLANNER_EXPLORE;
+    reset(p);
+    assert_int_equal(rlvc_planner_observe(p->planner, action, reward, p->world.s, RLVC_TRUNCATED),
+                     RLVC_OK);
+}
+
+/* A tree that explored is a policy if it earned more than the best one is held to. */
+static void test_discoveries_are_policies(void **state) {
+    (void)state;
+    rlvc_planner_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    const rlvc_archive *archive = &planner->archive;
+    player p;
+    start(&p, planner, 5);
+    explore_once(&p, 0, -3.0f); /* the worst so far */
+    assert_int_equal(archive->count, 0);
+    explore_once(&p, 1, 2.0f);
+    assert_int_equal(archive->count, 1);
+    assert_int_equal(archive->trial->episodes, 1);
+    assert_int_equal(archive->trial->promise_known, 0);
+    assert_true(archive->trial->score == 2.0f && archive->trial->earned[0] == 2.0f);
+    assert_int_equal(archive->trial->tree.node->action, 1);
+    explore_once(&p, 2, 2.0f); /* no more than the best */
+    assert_int_equal(archive->count, 1);
+    for (uint32_t i = 1; i < 2u * RLVC_ARCHIVE_POLICIES; i++)
+        explore_once(&p, i % 3u, (float)(2u + i));
+    assert_int_equal(archive->count, RLVC_ARCHIVE_POLICIES);
+    assert_true(archive->trial[RLVC_ARCHIVE_POLICIES - 1u].score == 17.0f);
+}
+
 /* Of an episode that explores, no more steps count than there are cells for a pair of components.
  */
 static void test_a_long_exploration(void **state) {
@@ -648,6 +681,7 @@ int main(void) {
         cmocka_unit_test(test_slices_change_nothing),
         cmocka_unit_test(test_learning_while_acting),
         cmocka_unit_test(test_searches_pause),
+        cmocka_unit_test(test_discoveries_are_policies),
         cmocka_unit_test(test_a_long_exploration),
         cmocka_unit_test(test_many_terms),
         cmocka_unit_test(test_acting_at_any_percept),

@@ -137,7 +137,8 @@ RLVC_API rlvc_status rlvc_planner_learn(rlvc_planner *planner, uint32_t budget,
 RLVC_API rlvc_status rlvc_planner_budget_min(const rlvc_planner *planner, uint32_t *budget);
 
 /* The action of the learnt policy: of the trees that were tried the one of the highest score, less
- * half a standard error; action 0 while there is none. O(depth).
+ * half a standard error and 0.2 % of the score for each leaf; action 0 while there is none.
+ * O(depth).
  * @return RLVC_OK; RLVC_E_RANGE: the percept. */
 RLVC_API rlvc_status rlvc_planner_predict(const rlvc_planner *planner, const float *percept,
                                           uint32_t *action);

@@ -9,6 +9,8 @@
 
 #define BETA_LEAST 0.05f
 #define FINALISTS 4u
+#define LEAF_PRICE 0.004f
+#define COMMON_EPISODES 4.0f /* that the common difference counts for in a score */
 
 void rlvc_archive_carve(rlvc_archive *archive, rlvc_arena *arena, uint32_t components) {
     memset(archive, 0, sizeof *archive);
@@ -115,10 +117,10 @@ void rlvc_archive_score(rlvc_archive *archive, float spread) {
     for (uint32_t i = 0; i < archive->count; i++) {
         rlvc_trial *trial = archive->trial + i;
         uint32_t kept = trial->valued;
-        float sum = archive->common;
+        float sum = COMMON_EPISODES * archive->common;
         for (uint32_t e = 0; e < kept; e++)
             sum += difference(archive, trial, e);
-        trial->score = archive->beta * trial->promise + sum / (float)(kept + 1u);
+        trial->score = archive->beta * trial->promise + sum / ((float)kept + COMMON_EPISODES);
     }
 }
 
@@ -128,6 +130,11 @@ static float standard_error(const rlvc_archive *archive, const rlvc_trial *trial
     return archive->deviation / rlvc_sqrt((float)rlvc_trial_kept(trial));
 }
 
+static float price_of(const rlvc_trial *trial) {
+    float size = trial->score < 0.0f ? -trial->score : trial->score;
+    return LEAF_PRICE * size * (float)trial->tree.leaves;
+}
+
 uint32_t rlvc_archive_best(const rlvc_archive *archive, float caution) {
     uint32_t best = 0;
     float most = -3e38f;
@@ -135,7 +142,7 @@ uint32_t rlvc_archive_best(const rlvc_archive *archive, float caution) {
         const rlvc_trial *trial = archive->trial + i;
         float value = -2e38f;
         if (trial->episodes > 0)
-            value = trial->score - caution * standard_error(archive, trial);
+            value = trial->score - caution * (standard_error(archive, trial) + price_of(trial));
         if (value > most) {
             most = value;
             best = i;
@@ -176,7 +183,7 @@ uint32_t rlvc_archive_race(const rlvc_archive *archive) {
         float bound = 2e38f;
         if (trial->episodes > 0)
             bound =
-                trial->score + standard_error(archive, trial) * rlvc_sqrt(2.0f * rlvc_ln(episodes));
+                trial->score + standard_error(archive, trial) * rlvc_sqrt(0.5f * rlvc_ln(episodes));
         if (bound > most) {
             most = bound;
             best = finalist[k];

@@ -209,6 +209,23 @@ static void note_exploration(rlvc_planner *planner) {
     planner->gainful = planner->new_cells * 50u >= most;
 }
 
+/* A tree that explored, and earned more than the best policy is held to, is one as well. It takes
+ * no other's place: what a step of learning looks at stays. */
+static void note_discovery(rlvc_planner *planner) {
+    rlvc_archive *archive = &planner->archive;
+    float bar = planner->least;
+    if (archive->count == RLVC_ARCHIVE_POLICIES)
+        return;
+    if (archive->count > 0)
+        bar = archive->trial[rlvc_archive_best(archive, 0.0f)].score;
+    if (planner->earned <= bar)
+        return;
+    uint32_t added = rlvc_archive_add(archive, &planner->acting.tree, planner->earned);
+    archive->trial[added].promise_known = 0;
+    archive->trial[added].score = planner->earned;
+    rlvc_archive_note(archive, added, planner->now, planner->earned);
+}
+
 static void close_episode(rlvc_planner *planner, uint8_t end) {
     if (planner->episodes == 0 || planner->earned < planner->least)
         planner->least = planner->earned;
@@ -217,8 +234,10 @@ static void close_episode(rlvc_planner *planner, uint8_t end) {
     planner->episodes++;
     if (end != RLVC_TERMINATED && planner->steps > planner->longest)
         planner->longest = planner->steps;
-    if (planner->acting.why == RLVC_PLANNER_EXPLORE)
+    if (planner->acting.why == RLVC_PLANNER_EXPLORE) {
         note_exploration(planner);
+        note_discovery(planner);
+    }
     note_return(planner);
     planner->due = 1;
 }

@@ -27,8 +27,10 @@ typedef struct rlvc_planning_cursor {
     uint32_t policy; /* whose promises are being made */
     uint32_t episode;
     uint32_t at;
-    uint32_t tries; /* searches from nothing to come */
-    uint32_t model; /* that is being fitted */
+    uint32_t tries;  /* searches from nothing to come */
+    uint32_t model;  /* that is being fitted */
+    uint8_t derives; /* the search began at the best policy */
+    uint8_t derived; /* so did the one that made the candidate */
     uint8_t rolling;
     uint8_t phase;
 } rlvc_planning_cursor;

@@ -22,7 +22,6 @@ enum { FIT, PROMISE, DECIDE, CELLS, EXPLORE, SEARCH, CANDIDATE, DONE };
 #define SCRATCH_TRIES 2u
 #define FAILURES_MAX 3u
 #define SEARCH_PAUSE 250u /* interactions, more with each search without gain */
-#define MOVE_LEAST 0.001f
 
 uint32_t rlvc_planner_horizon(const rlvc_planner *planner) {
     uint32_t most = planner->config.horizon;
@@ -283,7 +282,8 @@ static void decide(rlvc_planner *planner) {
     planner->searched = planner->experience.total;
     planner->planning.candidate_value = -3e38f;
     planner->planning.tries = 0;
-    if (archive->count == 0 || planner->counter % SCRATCH_EVERY == 0)
+    planner->planning.derives = archive->count > 0;
+    if (planner->searches == 1u || planner->counter % SCRATCH_EVERY == 0)
         planner->planning.tries = SCRATCH_TRIES;
     else if (planner->failures > 0)
         planner->planning.tries = 1;
@@ -328,7 +328,9 @@ static uint32_t search(rlvc_planner *planner, uint32_t budget) {
     if (value > planning->candidate_value) {
         planning->candidate_value = value;
         planning->candidate = search->tree;
+        planning->derived = planning->derives;
     }
+    planning->derives = 0;
     if (planning->tries > 0)
         search_from_nothing(planner, planning->tries--);
     else
@@ -336,32 +338,37 @@ static uint32_t search(rlvc_planner *planner, uint32_t budget) {
     return spent;
 }
 
-/* The candidate acts if its calibrated promise beats the best score; and, the more often the less
- * the models are trusted, if it falls short by no more than an episode's return may deviate: where
- * they do not foresee what goes wrong their promises all look alike, and only trying tells. */
+/* What the candidate is held to earn: its promise, calibrated by what all policies earned. One that
+ * the search made of the best policy earns what that does, and more by what it promises more. */
+static float worth_of_candidate(const rlvc_planner *planner, const rlvc_trial *best) {
+    const rlvc_archive *archive = &planner->archive;
+    float promised = planner->planning.value_sum;
+    float worth = archive->beta * promised + archive->common;
+    float made = best->score + archive->beta * (promised - best->promise);
+    return planner->planning.derived && made > worth ? made : worth;
+}
+
+/* The candidate acts unless it is held to earn less than the best policy by more than an episode's
+ * return may deviate: those that the models cannot tell apart are not equally good, and only trying
+ * tells. The search gained if the candidate is held to earn more by a quarter of that. */
 static uint32_t try_candidate(rlvc_planner *planner) {
     rlvc_planning_cursor *planning = &planner->planning;
     rlvc_archive *archive = &planner->archive;
     if (!mean_step(planner, &planning->candidate))
         return rlvc_rollout_units(planner->model);
-    float promised = planning->value_sum, bar = -3e38f, least;
-    float value = archive->beta * promised + archive->common;
-    uint32_t best = 0;
-    if (archive->count > 0) {
-        best = rlvc_archive_best(archive, 0.0f);
-        bar = archive->trial[best].score;
+    float worth = planning->value_sum;
+    int gains = 1, near = 1;
+    if (archive->count > 0 && !rlvc_archive_flat(archive, planner->most)) {
+        const rlvc_trial *best = archive->trial + rlvc_archive_best(archive, 0.0f);
+        worth = worth_of_candidate(planner, best);
+        gains = worth > best->score + 0.25f * archive->deviation;
+        near = worth >= best->score - archive->deviation;
     }
-    least = bar < 0.0f ? -bar : bar;
-    int gains = value > bar + MOVE_LEAST * least;
-    int near =
-        value >= bar - archive->deviation && rlvc_rng_uniform(&planner->rng) < 1.0f - archive->beta;
-    if (rlvc_archive_flat(archive, planner->most))
-        gains = 1;
     planner->failures = gains ? 0u : planner->failures + 1u;
-    if (gains || near) {
-        best = rlvc_archive_add(archive, &planning->candidate, promised);
-        archive->trial[best].score = value;
-        choose(planner, &planning->candidate, best, RLVC_PLANNER_NEW);
+    if (near) {
+        uint32_t added = rlvc_archive_add(archive, &planning->candidate, planning->value_sum);
+        archive->trial[added].score = worth;
+        choose(planner, &planning->candidate, added, RLVC_PLANNER_NEW);
     } else {
         try_again(planner);
     }
