@@ -212,7 +212,7 @@ static void test_searches_pause(void **state) {
 static void explore_once(player *p, uint32_t action, float reward) {
     rlvc_small_tree_constant(&p->planner->next.tree, action);
     p->planner->next.why = RLVC_PLANNER_EXPLORE;
-    reset(p);
+    begin(p);
     assert_int_equal(rlvc_planner_observe(p->planner, action, reward, p->world.s, RLVC_TRUNCATED),
                      RLVC_OK);
 }
@@ -239,6 +239,34 @@ static void test_discoveries_are_policies(void **state) {
         explore_once(&p, i % 3u, (float)(2u + i));
     assert_int_equal(archive->count, RLVC_ARCHIVE_POLICIES);
     assert_true(archive->trial[RLVC_ARCHIVE_POLICIES - 1u].score == 17.0f);
+}
+
+/* A candidate acts unless it is held to earn less than the best policy by more than a return may
+ * deviate: one of a search from nothing, where the best has come to earn much more. */
+static void test_a_hopeless_candidate(void **state) {
+    (void)state;
+    for (uint32_t hopeless = 0; hopeless < 2; hopeless++) {
+        player p;
+        rlvc_planner *planner = play_anew(&p, 5, 900);
+        rlvc_archive *archive = &planner->archive;
+        rlvc_progress progress;
+        uint32_t least, before = planner->candidates;
+        planner->gainful = 0;
+        planner->failures = 0;
+        planner->counter = 8; /* so that the next step makes one search, from the best policy */
+        assert_int_equal(rlvc_planner_budget_min(planner, &least), RLVC_OK);
+        assert_int_equal(rlvc_planner_observe(planner, 0, 1.0f, p.world.s, RLVC_TRUNCATED),
+                         RLVC_OK);
+        while (planner->candidates == before)
+            assert_int_equal(rlvc_planner_learn(planner, least, &progress), RLVC_OK);
+        if (hopeless) {
+            planner->planning.derived = 0;
+            archive->trial[rlvc_archive_best(archive, 0.0f)].score = 1e6f;
+        }
+        learn(planner);
+        assert_int_equal(planner->next.why, hopeless ? RLVC_PLANNER_AGAIN : RLVC_PLANNER_NEW);
+        assert_true(!hopeless || planner->failures == 1u);
+    }
 }
 
 /* Of an episode that explores, no more steps count than there are cells for a pair of components.
@@ -682,6 +710,7 @@ int main(void) {
         cmocka_unit_test(test_learning_while_acting),
         cmocka_unit_test(test_searches_pause),
         cmocka_unit_test(test_discoveries_are_policies),
+        cmocka_unit_test(test_a_hopeless_candidate),
         cmocka_unit_test(test_a_long_exploration),
         cmocka_unit_test(test_many_terms),
         cmocka_unit_test(test_acting_at_any_percept),
