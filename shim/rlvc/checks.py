@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import difflib
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -87,3 +89,35 @@ def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
     if isinstance(value, bool | int | float) and value in (0, 1):
         return bool(value)
     raise error(f"{name}: {value!r:.80} is not a truth value: give True or False")
+
+
+_ELSEWHERE = {
+    "gamma": "discount",
+    "eps": "epsilon",
+    "total_timesteps": "interactions",
+    "n_steps": "interactions",
+    "buffer_size": "capacity",
+    "max_leaf_nodes": "classes",
+    "random_state": "seed",
+}
+
+
+def known(changes: Iterable[str], fields: Iterable[str], kind: str) -> None:
+    """Raise ConfigError if a field is not one of a config's.
+
+    Parameters
+    ----------
+    changes : iterable of str
+        Names by the caller.
+    fields : iterable of str
+        The names that there are.
+    kind : str
+        What has the fields, for the error.
+    """
+    there = list(fields)
+    for name in changes:
+        if name not in there:
+            near = difflib.get_close_matches(name, there, 1)
+            meant = _ELSEWHERE.get(name, near[0] if near else "")
+            hint = f": do you mean {meant}?" if meant else f": it has {', '.join(there)}"
+            raise ConfigError(f"{name}: {kind} has no such field{hint}")

@@ -356,3 +356,23 @@ def test_what_cannot_be_drawn():
         for draw in plot.KINDS.values():
             with pytest.raises(errors.RunError):
                 draw(source)
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: rlvc.learn(Ring(), 100, discont=0.9), "discont: an agent has no such field: do you mean discount?"),
+        (lambda: rlvc.learn(Ring(), 100, gamma=0.9), "do you mean discount?"),
+        (lambda: rlvc.learn(Ring(), 100, leaves=5), "leaves: an agent has no such field, the method 'planner' has it"),
+        (lambda: rlvc.learn(Ring(), 100, xyz=5), "xyz: an agent has no such field: it has capacity"),
+        (lambda: rlvc.PlannerConfig(2).replace(horizn=5), "a planner has no such field: do you mean horizon?"),
+        (lambda: rlvc.EvalCallback("FrozenLake-v1"), "pass gymnasium.make"),
+        (lambda: rlvc.learn_many(Ring(), 100, seeds=1, processes=1), "give its name, or a function that makes one"),
+        (lambda: rlvc.learn(Ring(), 100, seed=1).predict((0, {})), "a pair (observation, info)"),
+        (lambda: rlvc.learn(Ring(), 100, seed=1).export_c(name="1a"), "name: '1a' is not an identifier"),
+    ],
+)  # fmt: skip
+def test_what_newcomers_do_is_answered(call, said):
+    with pytest.raises(errors.Error) as caught:
+        call()
+    assert said in str(caught.value)

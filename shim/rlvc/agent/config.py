@@ -9,6 +9,7 @@ import math
 from typing import Literal, get_args
 
 from .. import _native
+from ..checks import known
 from ..errors import ConfigError
 
 Criterion = Literal["returns", "residual"]
@@ -134,10 +135,8 @@ class Config:
         Config
             The copy.
         """
-        try:
-            return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
-        except TypeError as error:
-            raise ConfigError(f"no such field: {error}") from None
+        known(changes, (field.name for field in dataclasses.fields(self)), "an agent")
+        return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
 
 
 def _native_value(field: str, kind: object, value: object) -> object:

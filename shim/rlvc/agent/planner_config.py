@@ -6,8 +6,7 @@ from __future__ import annotations
 import dataclasses
 
 from .. import _native
-from ..checks import whole
-from ..errors import ConfigError
+from ..checks import known, whole
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,10 +69,8 @@ class PlannerConfig:
         PlannerConfig
             The copy.
         """
-        try:
-            return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
-        except TypeError as error:
-            raise ConfigError(f"no such field: {error}") from None
+        known(changes, (field.name for field in dataclasses.fields(self)), "a planner")
+        return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
 
 
 def to_native(config: PlannerConfig, components: int) -> _native.PlannerConfig:

@@ -61,7 +61,8 @@ def _environment(name: str, given: list[str]) -> Any:
     except ImportError:
         raise
     except Exception as error:  # of Gymnasium, or of the environment
-        raise EnvError(f"{name}: cannot be made: {error}") from error
+        why = f"{type(error).__name__} {error}" if isinstance(error, KeyError) else error
+        raise EnvError(f"{name}: cannot be made: {why}") from error
 
 
 def _with_past(env: Any, count: int | None) -> Any:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..checks import real, whole
 from ..files import replace
+from . import boundary
 
 if TYPE_CHECKING:
     from .evaluation import Evaluation
@@ -69,6 +70,7 @@ class EvalCallback(_Every):
         stop_at: float | None = None,
     ) -> None:
         super().__init__(every)
+        boundary.check(env)
         self.env, self.episodes, self.seed, self.best = env, episodes, seed, best
         self.stop_at = None if stop_at is None else real("stop_at", stop_at)
         self.interactions: list[int] = []

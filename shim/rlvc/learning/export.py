@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..errors import RangeError
 from .encode import Encoder
 
 if TYPE_CHECKING:
@@ -17,6 +19,8 @@ _WIDTH = 90
 
 def header(run: Run, name: str) -> str:
     """Return the header: see :meth:`rlvc.Run.export_c`."""
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]{0,47}", name):
+        raise RangeError(f"name: {name!r:.80} is not an identifier of C of at most 48 characters")
     text = run.acting.export_c(name)
     more = _percept(run) + _actions(run, name)
     if not more:

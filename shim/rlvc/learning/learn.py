@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
@@ -13,7 +14,8 @@ from ..agent.agent import Agent
 from ..agent.config import Config
 from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
-from ..checks import whole
+from ..agent.planner_config import PlannerConfig
+from ..checks import known, whole
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
@@ -98,10 +100,12 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
     }
     if changes.get("criterion") == "returns":
         fields |= {"epsilon": 0.8, "alpha_known": 0.0001, "explore": "uniform"}
-    try:
-        return Config(actions, **(fields | changes))
-    except TypeError as error:
-        raise ConfigError(f"no such field: {error}") from None
+    for name in changes:
+        if not hasattr(Config, name) and hasattr(PlannerConfig, name):
+            raise ConfigError(f"{name}: an agent has no such field, the method 'planner' has it")
+    there = [field.name for field in dataclasses.fields(Config) if field.name != "actions"]
+    known(changes, there, "an agent")
+    return Config(actions, **(fields | changes))
 
 
 def _method(wanted: str | None, domain: Domain, actions: int) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import whole
-from ..errors import ConfigError
+from ..errors import ConfigError, EnvError
 from .callbacks import EvalCallback
 from .learn import learn
 from .run import Run
@@ -57,6 +57,10 @@ def _made(env: Any) -> Any:
         import gymnasium
 
         return gymnasium.make(env)
+    if not callable(env):
+        raise EnvError(
+            f"env: {env!s:.80}: give its name, or a function that makes one, as each seed has its own"
+        )
     return env()
 
 

@@ -18,7 +18,7 @@ from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.policy import Policy
 from ..agent.results import PlannerStatistics
-from ..errors import RunError
+from ..errors import PerceptError, RunError
 from ..files import replace
 from ..words import explain
 from . import explanation
@@ -242,9 +242,16 @@ class Run:
         PerceptError
             It is not an element of the space, or contains NaN.
         """
-        if self._is_batch(observation):
-            return self.actions.of_many(self.indices(self.percepts(observation)))
-        return self.act(observation)
+        try:
+            if self._is_batch(observation):
+                return self.actions.of_many(self.indices(self.percepts(observation)))
+            return self.act(observation)
+        except PerceptError:
+            if isinstance(observation, tuple) and isinstance(observation[-1], dict):
+                raise PerceptError(
+                    "observation: a pair (observation, info), as reset() returns: pass the first"
+                ) from None
+            raise
 
     def _is_batch(self, observation: Any) -> bool:
         if self.encoder is None:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..checks import known
 from ..errors import (
     ConfigError,
 )
@@ -141,7 +142,5 @@ def config_of(config: VisionConfig | str, changes: dict[str, Any]) -> VisionConf
     """Return a config with some fields changed; a str names a descriptor with its defaults."""
     if isinstance(config, str):
         config = VisionConfig(config)
-    try:
-        return dataclasses.replace(config, **changes)
-    except TypeError as error:
-        raise ConfigError(f"no such field: {error}") from None
+    known(changes, (field.name for field in dataclasses.fields(config)), "an extractor")
+    return dataclasses.replace(config, **changes)
