@@ -172,6 +172,7 @@ rlvc_status rlvc_bits_domain(uint32_t bits, rlvc_domain *domain) {
         .detect = detect,
         .name = name,
         .check_feature = check_feature,
+        .method = &rlvc_method_classes,
     };
     *domain = made;
     return RLVC_OK;

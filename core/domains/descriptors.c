@@ -111,6 +111,7 @@ rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *
         .name = name,
         .check_percept = check_percept,
         .check_feature = check_feature,
+        .method = &rlvc_method_classes,
         .percept_words = 1u + rlvc_vectors_words(descriptors) * descriptors->points,
         .feature_words = 1u + rlvc_vectors_words(descriptors),
     };

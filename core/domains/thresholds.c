@@ -300,7 +300,7 @@ static int is_valid(const rlvc_thresholds *t) {
            t->cutpoints <= RLVC_THRESHOLDS_CUTPOINTS_MAX && t->oblique <= 1u;
 }
 
-rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *domain) {
+rlvc_status rlvc_thresholds_policy_domain(rlvc_thresholds *thresholds, rlvc_domain *domain) {
     if (thresholds == NULL || domain == NULL)
         return RLVC_E_NULL;
     if (!is_valid(thresholds))
@@ -323,6 +323,13 @@ rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *dom
     };
     *domain = made;
     return RLVC_OK;
+}
+
+rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *domain) {
+    const rlvc_status status = rlvc_thresholds_policy_domain(thresholds, domain);
+    if (status == RLVC_OK)
+        domain->method = &rlvc_method_planner;
+    return status;
 }
 
 rlvc_status rlvc_thresholds_check(const rlvc_thresholds *thresholds, const void *percept) {

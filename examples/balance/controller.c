@@ -16,9 +16,13 @@ uint32_t controller_block_bytes(void) {
 
 int controller_init(struct controller *controller, uint32_t seed) {
     static const struct controller made;
-    rlvc_planner_config config;
+    static rlvc_thresholds thresholds;
+    rlvc_domain domain;
+    rlvc_config config;
     *controller = made;
-    if (rlvc_planner_default(&config, CART_POLE_COMPONENTS, CART_POLE_ACTIONS) != RLVC_OK)
+    if (rlvc_thresholds_default(&thresholds, CART_POLE_COMPONENTS) != RLVC_OK ||
+        rlvc_thresholds_domain(&thresholds, &domain) != RLVC_OK ||
+        rlvc_config_default(&config, &domain, CART_POLE_ACTIONS) != RLVC_OK)
         return -1;
     config.capacity = CAPACITY;
     config.sample = SAMPLE;
@@ -27,7 +31,7 @@ int controller_init(struct controller *controller, uint32_t seed) {
     config.candidates = CANDIDATES;
     config.patience = PATIENCE;
     config.seed = seed;
-    if (rlvc_planner_init(&config, block, sizeof block, &controller->planner) != RLVC_OK)
+    if (rlvc_agent_init(&config, &domain, block, sizeof block, &controller->agent) != RLVC_OK)
         return -1;
     cart_pole_init(&controller->cart, seed);
     cart_pole_init(&controller->meanwhile, seed + 1u);
@@ -36,20 +40,20 @@ int controller_init(struct controller *controller, uint32_t seed) {
 
 /* An interaction of an episode, and the first percept of the next one after the last. */
 static int explore(struct controller *controller) {
-    rlvc_planner *planner = controller->planner;
+    rlvc_agent *agent = controller->agent;
     struct cart_pole *cart = &controller->cart;
-    uint32_t action;
+    rlvc_choice choice;
     uint8_t end = RLVC_GOES_ON;
-    if (controller->steps == 0 && rlvc_planner_begin(planner, cart->state) != RLVC_OK)
+    if (controller->steps == 0 && rlvc_begin(agent, cart->state) != RLVC_OK)
         return -1;
-    if (rlvc_planner_act(planner, &action) != RLVC_OK)
+    if (rlvc_act(agent, &choice) != RLVC_OK)
         return -1;
     controller->steps++;
-    if (cart_pole_step(cart, action))
+    if (cart_pole_step(cart, choice.action))
         end = RLVC_TERMINATED;
     else if (controller->steps == EPISODE_STEPS)
         end = RLVC_TRUNCATED;
-    if (rlvc_planner_observe(planner, action, 1.0f, cart->state, end) != RLVC_OK)
+    if (rlvc_observe(agent, choice, 1.0f, cart->state, end) != RLVC_OK)
         return -1;
     controller->interactions++;
     if (end == RLVC_GOES_ON)
@@ -64,7 +68,7 @@ static int explore(struct controller *controller) {
 static int balance(struct controller *controller) {
     struct cart_pole *cart = &controller->meanwhile;
     uint32_t action;
-    if (rlvc_planner_predict(controller->planner, cart->state, &action) != RLVC_OK)
+    if (rlvc_predict(controller->agent, cart->state, NULL, &action) != RLVC_OK)
         return -1;
     if (cart_pole_step(cart, action)) {
         cart_pole_reset(cart);
@@ -76,7 +80,7 @@ static int balance(struct controller *controller) {
 static int lend_slice(struct controller *controller) {
     rlvc_progress progress;
     uint32_t start = port_instructions();
-    rlvc_status status = rlvc_planner_learn(controller->planner, SLICE, &progress);
+    rlvc_status status = rlvc_learn(controller->agent, SLICE, &progress);
     controller->slice_instructions = port_instructions() - start;
     if (status != RLVC_OK || progress.work > SLICE)
         return -1;

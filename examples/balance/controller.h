@@ -12,7 +12,7 @@
 #include "settings.h"
 
 struct controller {
-    rlvc_planner *planner;
+    rlvc_agent *agent;
     struct cart_pole cart; /* in the episodes that are learnt from */
     struct cart_pole meanwhile;
     uint8_t learning; /* a step of learning is under way */
@@ -29,7 +29,7 @@ struct controller {
  * @return 0; -1: it could not be made. */
 int controller_init(struct controller *controller, uint32_t seed);
 
-/* The bytes of the static block that the planner lives in. */
+/* The bytes of the static block that the agent lives in. */
 uint32_t controller_block_bytes(void);
 
 /* One period of the control loop.

@@ -15,7 +15,7 @@ uint32_t report_trials(const struct controller *controller) {
         cart_pole_reset(&cart);
         for (uint32_t k = 0; k < EPISODE_STEPS && !fell; k++) {
             uint32_t action;
-            if (rlvc_planner_predict(controller->planner, cart.state, &action) != RLVC_OK)
+            if (rlvc_predict(controller->agent, cart.state, NULL, &action) != RLVC_OK)
                 return 0;
             fell = cart_pole_step(&cart, action);
             steps++;
@@ -42,7 +42,7 @@ static uint32_t ticks(const struct controller *controller) {
 static rlvc_planner_statistics ask(const struct controller *controller) {
     rlvc_planner_statistics statistics;
     memset(&statistics, 0, sizeof statistics);
-    (void)rlvc_planner_stats(controller->planner, &statistics); /* no pointer is null */
+    (void)rlvc_planner_stats(controller->agent, &statistics); /* no pointer is null */
     return statistics;
 }
 
@@ -63,27 +63,11 @@ static int write_text(void *file, const char *text, size_t bytes) {
     return fwrite(text, 1, bytes, (FILE *)file) != bytes;
 }
 
-/* The policy by itself, without the planner. */
-static rlvc_status print_policy(const struct controller *controller) {
-    static uint64_t memory[RLVC_PLANNER_POLICY_BYTES / sizeof(uint64_t)];
-    rlvc_thresholds thresholds;
-    rlvc_domain domain;
-    rlvc_policy *policy;
-    rlvc_status status = rlvc_thresholds_default(&thresholds, CART_POLE_COMPONENTS);
-    if (status == RLVC_OK)
-        status = rlvc_thresholds_domain(&thresholds, &domain);
-    if (status == RLVC_OK)
-        status = rlvc_planner_policy(controller->planner, &domain, memory, sizeof memory, &policy);
-    if (status == RLVC_OK)
-        status = rlvc_policy_print(policy, RLVC_PRINT_TEXT, write_text, stdout);
-    return status;
-}
-
 void report_summary(const struct controller *controller, uint32_t steps,
                     const struct milestones *reached) {
     printf("\nPolicy (component 0: position, 1: speed, 2: angle, 3: its speed; action 0: push to "
            "the left)\n");
-    (void)print_policy(controller);
+    (void)rlvc_print(controller->agent, RLVC_PRINT_TEXT, write_text, stdout);
     printf("\n  balances      ");
     print_mean(steps);
     printf(" of %u steps", EPISODE_STEPS);
@@ -107,7 +91,7 @@ static uint32_t bits_of(float number) {
 static void json_policy(const struct controller *controller) {
     rlvc_planner_test node;
     printf("\"policy\":[");
-    for (uint32_t i = 0; rlvc_planner_node(controller->planner, i, &node) == RLVC_OK; i++) {
+    for (uint32_t i = 0; rlvc_planner_node(controller->agent, i, &node) == RLVC_OK; i++) {
         printf("%s", i > 0 ? "," : "");
         if (node.component == RLVC_PLANNER_LEAF)
             printf("{\"action\":%u}", (unsigned)node.action);

@@ -44,7 +44,7 @@ EXPORT(cart_new) int cart_new(uint32_t seed) {
 
 static void look(void) {
     rlvc_planner_statistics statistics;
-    (void)rlvc_planner_stats(lab.controller.planner, &statistics);
+    (void)rlvc_planner_stats(lab.controller.agent, &statistics);
     lab.view.leaves = statistics.leaves;
     lab.view.score = statistics.score;
     lab.view.verdict = statistics.verdict;
@@ -73,7 +73,7 @@ EXPORT(cart_tick) int cart_tick(uint32_t count) {
 /* One period of the cart that is shown. */
 EXPORT(cart_show) void cart_show(void) {
     uint32_t action = CART_POLE_LEFT;
-    (void)rlvc_planner_predict(lab.controller.planner, lab.shown.state, &action);
+    (void)rlvc_predict(lab.controller.agent, lab.shown.state, NULL, &action);
     lab.view.action = action;
     lab.view.steps++;
     if (cart_pole_step(&lab.shown, action)) {
@@ -99,26 +99,14 @@ EXPORT(cart_view) const struct view *cart_view(void) {
     return &lab.view;
 }
 
-static rlvc_policy *make_policy(void) {
-    static uint64_t memory[RLVC_PLANNER_POLICY_BYTES / sizeof(uint64_t)];
-    static rlvc_thresholds thresholds;
-    rlvc_domain domain;
-    rlvc_policy *policy = NULL;
-    text_begin();
-    (void)rlvc_thresholds_default(&thresholds, CART_POLE_COMPONENTS);
-    (void)rlvc_thresholds_domain(&thresholds, &domain);
-    (void)rlvc_planner_policy(lab.controller.planner, &domain, memory, sizeof memory, &policy);
-    return policy;
-}
-
 /* Writes the learnt tree as JSON. Returns whether there is one; likewise below. */
 EXPORT(cart_tree) uint32_t cart_tree(void) {
-    rlvc_policy *policy = make_policy();
-    return policy && rlvc_policy_print(policy, RLVC_PRINT_JSON, text_write, NULL) == RLVC_OK;
+    text_begin();
+    return rlvc_print(lab.controller.agent, RLVC_PRINT_JSON, text_write, NULL) == RLVC_OK;
 }
 
 /* Writes it as C. */
 EXPORT(cart_policy_c) uint32_t cart_policy_c(void) {
-    rlvc_policy *policy = make_policy();
-    return policy && rlvc_policy_export_c(policy, "balance", text_write, NULL, NULL) == RLVC_OK;
+    text_begin();
+    return rlvc_export_c(lab.controller.agent, "balance", text_write, NULL, NULL) == RLVC_OK;
 }

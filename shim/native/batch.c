@@ -28,21 +28,6 @@ rlvc_status rlvc_shim_policy_act(rlvc_policy *policy, const unsigned char *perce
     return status;
 }
 
-rlvc_status rlvc_shim_planner_predict(const rlvc_planner *planner, const unsigned char *percepts,
-                                      uint32_t bytes, size_t count, uint32_t *actions,
-                                      size_t *done) {
-    rlvc_status status = RLVC_OK;
-    size_t i = 0;
-    for (; i < count; i++) {
-        status = rlvc_planner_predict(planner, (const float *)(const void *)(percepts + i * bytes),
-                                      actions + i);
-        if (status != RLVC_OK)
-            break;
-    }
-    *done = i;
-    return status;
-}
-
 rlvc_status rlvc_shim_act(rlvc_agent *agent, const rlvc_shim_log *log, size_t *done) {
     rlvc_status status = RLVC_OK;
     size_t i = 0;

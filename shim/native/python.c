@@ -137,6 +137,7 @@ static int check_feature(void *ctx, const void *feature) {
 void rlvc_shim_python_domain(rlvc_shim_python *methods, rlvc_domain *domain) {
     domain->ctx = methods;
     domain->exhibits = exhibits;
+    domain->method = &rlvc_method_classes;
     domain->candidates = candidates;
     domain->detect = methods->detect ? detect : NULL;
     domain->oracle = methods->oracle ? oracle : NULL;

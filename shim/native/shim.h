@@ -24,6 +24,7 @@ RLVC_API const rlvc_shim_entry *rlvc_shim_layout(void);
  * or `count`. Elements before it stay processed. `bytes` is the size of a percept. */
 
 /* rlvc_predict for each of `count` percepts.
+ * @param percepts of a planner aligned for floats
  * @param classes, actions [count], each optional */
 RLVC_API rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *percepts,
                                        uint32_t bytes, size_t count, uint32_t *classes,
@@ -34,13 +35,6 @@ RLVC_API rlvc_status rlvc_shim_predict(rlvc_agent *agent, const unsigned char *p
 RLVC_API rlvc_status rlvc_shim_policy_act(rlvc_policy *policy, const unsigned char *percepts,
                                           uint32_t bytes, size_t count, uint32_t *actions,
                                           size_t *done);
-
-/* rlvc_planner_predict for each of `count` percepts.
- * @param percepts aligned for floats
- * @param actions  [count] */
-RLVC_API rlvc_status rlvc_shim_planner_predict(const rlvc_planner *planner,
-                                               const unsigned char *percepts, uint32_t bytes,
-                                               size_t count, uint32_t *actions, size_t *done);
 
 /* Interactions, as arrays of `count` elements. */
 typedef struct rlvc_shim_log {

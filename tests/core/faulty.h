@@ -136,6 +136,7 @@ static inline rlvc_domain faulty_domain(faulty *f, const rlvc_domain *inner) {
     f->inner = *inner;
     outer.ctx = f;
     outer.exhibits = faulty_exhibits;
+    outer.method = inner->method;
     outer.candidates = inner->candidates ? faulty_candidates : NULL;
     outer.detect = inner->detect ? faulty_detect : NULL;
     outer.oracle = inner->oracle ? faulty_oracle : NULL;

@@ -4,6 +4,7 @@
 #ifndef RLVC_TESTS_SLIDER_PLAYER_H
 #define RLVC_TESTS_SLIDER_PLAYER_H
 
+#include "planners.h"
 #include "slider.h"
 
 #include <string.h>
@@ -17,21 +18,21 @@ typedef struct player {
 } player;
 
 /* A planner of the slider with models and searches that are soon done. */
-static inline rlvc_planner_config slider_config(void) {
-    rlvc_planner_config config;
-    assert_int_equal(rlvc_planner_default(&config, SLIDER_COMPONENTS, SLIDER_ACTIONS), RLVC_OK);
+static inline rlvc_config slider_config(void) {
+    rlvc_config config;
+    config = planner_default(SLIDER_COMPONENTS, SLIDER_ACTIONS);
     config.model_leaves = 8;
     config.random = 150;
     return config;
 }
 
 /* @return a planner in `block`, which has `most` bytes. */
-static inline rlvc_planner *make_in(const rlvc_planner_config *config, void *block, size_t most) {
+static inline rlvc_planner *make_in(const rlvc_config *config, void *block, size_t most) {
     rlvc_planner *planner;
     size_t bytes;
-    assert_int_equal(rlvc_planner_size(config, &bytes), RLVC_OK);
+    assert_int_equal(planner_size(config, &bytes), RLVC_OK);
     assert_true(bytes <= most);
-    assert_int_equal(rlvc_planner_init(config, block, bytes, &planner), RLVC_OK);
+    assert_int_equal(planner_init(config, block, bytes, &planner), RLVC_OK);
     return planner;
 }
 
@@ -40,7 +41,7 @@ static inline uint64_t learn_in_slices(rlvc_planner *planner, uint32_t budget) {
     rlvc_progress progress;
     uint64_t work = 0;
     do {
-        assert_int_equal(rlvc_planner_learn(planner, budget, &progress), RLVC_OK);
+        assert_int_equal(planner_learn(planner, budget, &progress), RLVC_OK);
         assert_true(progress.work <= budget);
         work += progress.work;
     } while (!progress.done);
@@ -53,7 +54,7 @@ static inline void learn(rlvc_planner *planner) {
 
 static inline void begin(player *p) {
     slider_reset(&p->world, &p->rng);
-    assert_int_equal(rlvc_planner_begin(p->planner, p->world.s), RLVC_OK);
+    assert_int_equal(planner_begin(p->planner, p->world.s), RLVC_OK);
 }
 
 static inline void start(player *p, rlvc_planner *planner, uint32_t seed) {
@@ -68,10 +69,9 @@ static inline void play(player *p, uint32_t interactions) {
     for (uint32_t i = 0; i < interactions; i++) {
         uint32_t action;
         float reward;
-        assert_int_equal(rlvc_planner_act(p->planner, &action), RLVC_OK);
+        assert_int_equal(planner_act(p->planner, &action), RLVC_OK);
         uint8_t end = slider_step(&p->world, action, &reward);
-        assert_int_equal(rlvc_planner_observe(p->planner, action, reward, p->world.s, end),
-                         RLVC_OK);
+        assert_int_equal(planner_observe(p->planner, action, reward, p->world.s, end), RLVC_OK);
         if (end != RLVC_GOES_ON) {
             p->work += learn_in_slices(p->planner, p->budget);
             begin(p);

@@ -33,6 +33,7 @@ static rlvc_agent *learn(void) {
     assert_int_equal(rlvc_thresholds_default(&thresholds, COMPONENTS), RLVC_OK);
     assert_int_equal(rlvc_thresholds_domain(&thresholds, &domain), RLVC_OK);
     assert_int_equal(rlvc_config_default(&config, &domain, 2), RLVC_OK);
+    config.method = &rlvc_method_classes;
     config.capacity = SAMPLES;
     config.classes = 4;
     assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);

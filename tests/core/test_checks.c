@@ -61,6 +61,7 @@ static rlvc_domain descriptors_domain(rlvc_descriptors *d, uint8_t form) {
 static rlvc_agent *agent_of(const rlvc_domain *domain, rlvc_config *config) {
     rlvc_agent *agent;
     assert_int_equal(rlvc_config_default(config, domain, 2), RLVC_OK);
+    config->method = &rlvc_method_classes;
     config->capacity = INTERACTIONS;
     config->classes = 8;
     config->explore = RLVC_EXPLORE_UNIFORM;

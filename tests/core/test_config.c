@@ -10,6 +10,8 @@
 
 #include "rlvc/agent.h"
 #include "rlvc/bits.h"
+#include "rlvc/planner.h"
+#include "rlvc/thresholds.h"
 
 static rlvc_config config;
 static rlvc_domain domain;
@@ -109,6 +111,55 @@ static void test_counts(void **state) {
             expect(values[j] >= r->low && values[j] <= r->high ? NULL : r->field, r->field);
         }
     }
+}
+
+/* Of the planner, which looks at no other field: the highest of `sample` and of `random` are those
+ * of the default capacity. */
+static void test_planner(void **state) {
+    (void)state;
+    rlvc_thresholds thresholds;
+    const range ranges[] = {
+        {"actions", &config.actions, 2, RLVC_PLANNER_ACTIONS_MAX},
+        {"capacity", &config.capacity, 2000, RLVC_PLANNER_CAPACITY_MAX},
+        {"sample", &config.sample, 32, 2000},
+        {"model_leaves", &config.model_leaves, 1, RLVC_PLANNER_MODEL_LEAVES_MAX},
+        {"leaves", &config.leaves, 2, RLVC_PLANNER_LEAVES_MAX},
+        {"horizon", &config.horizon, 1, RLVC_PLANNER_CAPACITY_MAX},
+        {"random", &config.random, 32, 1000},
+        {"candidates", &config.candidates, 1, RLVC_PLANNER_CANDIDATES_MAX},
+        {"patience", &config.patience, 1, RLVC_PLANNER_CANDIDATES_MAX},
+        {"seed", &config.seed, 0, UINT32_MAX},
+        {"classes", &config.classes, 0, UINT32_MAX},
+    };
+    assert_int_equal(rlvc_thresholds_default(&thresholds, 3), RLVC_OK);
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        const range *r = &ranges[i];
+        const uint32_t values[] = {r->low, r->high, r->low - 1u, r->high + 1u};
+        for (size_t j = 0; j < sizeof values / sizeof values[0]; j++) {
+            const int fine = values[j] >= r->low && values[j] <= r->high;
+            assert_int_equal(rlvc_thresholds_domain(&thresholds, &domain), RLVC_OK);
+            assert_int_equal(rlvc_config_default(&config, &domain, 4), RLVC_OK);
+            assert_ptr_equal(config.method, &rlvc_method_planner);
+            *r->place = values[j];
+            /* fewer percepts than a sample has interactions are said of the sample */
+            expect(fine                                     ? NULL
+                   : r->place == &config.capacity && j == 2 ? "sample"
+                                                            : r->field,
+                   r->field);
+        }
+    }
+    assert_int_equal(rlvc_config_default(&config, &domain, 4), RLVC_OK);
+    domain.percept_bytes = 4u * (RLVC_PLANNER_COMPONENTS_MAX + 1u);
+    expect("components", "too many components");
+    domain.percept_bytes = 3;
+    expect("components", "no component");
+    domain.kind = RLVC_DOMAIN_OWN;
+    expect("thresholds", "of another domain");
+    assert_int_equal(rlvc_thresholds_policy_domain(&thresholds, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, 4), RLVC_OK);
+    expect("method", "without a method");
+    config.method = &rlvc_method_classes;
+    expect(NULL, "by classes");
 }
 
 static void test_choices(void **state) {
@@ -253,10 +304,11 @@ static void test_ranks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),   cmocka_unit_test(test_null),
-        cmocka_unit_test(test_counts),     cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_numbers),    cmocka_unit_test(test_callbacks),
-        cmocka_unit_test(test_successors), cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_defaults),  cmocka_unit_test(test_null),
+        cmocka_unit_test(test_counts),    cmocka_unit_test(test_planner),
+        cmocka_unit_test(test_choices),   cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_callbacks), cmocka_unit_test(test_successors),
+        cmocka_unit_test(test_ranks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,6 +52,7 @@ static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t actions, uint3
     rlvc_config config;
     rlvc_agent *agent;
     assert_int_equal(rlvc_config_default(&config, domain, actions), RLVC_OK);
+    config.method = &rlvc_method_classes;
     config.capacity = capacity;
     config.classes = classes;
     assert_int_equal(rlvc_agent_init(&config, domain, &memory, sizeof memory, &agent), RLVC_OK);

@@ -8,28 +8,27 @@
 #include <cmocka.h>
 
 #include "block.h"
-#include "plan/planner_state.h"
-#include "rlvc/thresholds.h"
+#include "rlvc/rlvc.h"
 #include "slider_player.h"
 #include <math.h>
 
 static uint64_t memory[40000], other_memory[40000];
 
-static rlvc_planner_config small_config(void) {
-    rlvc_planner_config config = slider_config();
+static rlvc_config small_config(void) {
+    rlvc_config config = slider_config();
     config.sample = 500;
     config.candidates = 150;
     config.patience = 60;
     return config;
 }
 
-static rlvc_planner *make(const rlvc_planner_config *config, uint64_t *block) {
+static rlvc_planner *make(const rlvc_config *config, uint64_t *block) {
     return make_in(config, block, sizeof memory);
 }
 
 /* @return a planner of the small configuration after so many interactions. */
 static rlvc_planner *play_anew(player *p, uint32_t seed, uint32_t interactions) {
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
     start(p, planner, seed);
     play(p, interactions);
@@ -37,7 +36,7 @@ static rlvc_planner *play_anew(player *p, uint32_t seed, uint32_t interactions) 
 }
 
 /* What the learnt policy earns in an episode. */
-static float value_of(const rlvc_planner *planner) {
+static float value_of(rlvc_planner *planner) {
     rlvc_rng rng;
     float sum = 0.0f, reward;
     rlvc_rng_seed(&rng, 77);
@@ -47,7 +46,7 @@ static float value_of(const rlvc_planner *planner) {
         uint8_t end;
         slider_reset(&world, &rng);
         do {
-            assert_int_equal(rlvc_planner_predict(planner, world.s, &action), RLVC_OK);
+            assert_int_equal(planner_predict(planner, world.s, &action), RLVC_OK);
             end = slider_step(&world, action, &reward);
             sum += reward / 50.0f;
         } while (end == RLVC_GOES_ON);
@@ -55,9 +54,9 @@ static float value_of(const rlvc_planner *planner) {
     return sum;
 }
 
-static rlvc_planner_statistics stats_of(const rlvc_planner *planner) {
+static rlvc_planner_statistics stats_of(rlvc_planner *planner) {
     rlvc_planner_statistics statistics;
-    assert_int_equal(rlvc_planner_stats(planner, &statistics), RLVC_OK);
+    assert_int_equal(rlvc_planner_stats(as_agent(planner), &statistics), RLVC_OK);
     return statistics;
 }
 
@@ -66,7 +65,7 @@ static rlvc_planner_statistics stats_of(const rlvc_planner *planner) {
 static void test_the_slider_is_balanced(void **state) {
     (void)state;
     for (uint32_t seed = 1; seed <= 5; seed++) {
-        rlvc_planner_config config = small_config();
+        rlvc_config config = small_config();
         player p;
         config.seed = seed;
         rlvc_planner *planner = make(&config, memory);
@@ -86,25 +85,25 @@ static void test_the_slider_is_balanced(void **state) {
 /* The nodes are those of the policy that predict follows. */
 static void test_nodes_are_the_policy(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     player p;
     rlvc_planner_test node;
     rlvc_planner *planner = make(&config, memory);
-    assert_int_equal(rlvc_planner_node(planner, 0, &node), RLVC_OK);
+    assert_int_equal(rlvc_planner_node(as_agent(planner), 0, &node), RLVC_OK);
     assert_int_equal(node.component, RLVC_PLANNER_LEAF);
     assert_int_equal(node.action, 0);
-    assert_int_equal(rlvc_planner_node(planner, 1, &node), RLVC_E_RANGE);
+    assert_int_equal(rlvc_planner_node(as_agent(planner), 1, &node), RLVC_E_RANGE);
     start(&p, planner, 1);
     play(&p, 1500);
     uint32_t nodes = 2u * stats_of(planner).leaves - 1u;
-    assert_int_equal(rlvc_planner_node(planner, nodes, &node), RLVC_E_RANGE);
+    assert_int_equal(rlvc_planner_node(as_agent(planner), nodes, &node), RLVC_E_RANGE);
     for (uint32_t i = 0; i < 1000; i++) {
         float s[2] = {2.0f * rlvc_rng_uniform(&p.rng) - 1.0f,
                       2.0f * rlvc_rng_uniform(&p.rng) - 1.0f};
         uint32_t action, k = 0;
-        assert_int_equal(rlvc_planner_predict(planner, s, &action), RLVC_OK);
+        assert_int_equal(planner_predict(planner, s, &action), RLVC_OK);
         for (;;) {
-            assert_int_equal(rlvc_planner_node(planner, k, &node), RLVC_OK);
+            assert_int_equal(rlvc_planner_node(as_agent(planner), k, &node), RLVC_OK);
             if (node.component == RLVC_PLANNER_LEAF)
                 break;
             k = node.child + (uint32_t)(s[node.component] > node.cutpoint);
@@ -115,13 +114,13 @@ static void test_nodes_are_the_policy(void **state) {
 
 static void test_slices_change_nothing(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *one = make(&config, memory), *other = make(&config, other_memory);
     player p, q;
     uint32_t least;
     size_t bytes;
-    assert_int_equal(rlvc_planner_budget_min(other, &least), RLVC_OK);
-    assert_int_equal(rlvc_planner_size(&config, &bytes), RLVC_OK);
+    assert_int_equal(rlvc_budget_min(as_agent(other), &least), RLVC_OK);
+    assert_int_equal(planner_size(&config, &bytes), RLVC_OK);
     start(&p, one, 3);
     start(&q, other, 3);
     q.budget = least;
@@ -132,8 +131,8 @@ static void test_slices_change_nothing(void **state) {
     assert_memory_equal(&a_stats, &b_stats, sizeof a_stats);
     for (uint32_t k = 0; k + 1u < 2u * stats_of(one).leaves; k++) {
         rlvc_planner_test a, b;
-        assert_int_equal(rlvc_planner_node(one, k, &a), RLVC_OK);
-        assert_int_equal(rlvc_planner_node(other, k, &b), RLVC_OK);
+        assert_int_equal(rlvc_planner_node(as_agent(one), k, &a), RLVC_OK);
+        assert_int_equal(rlvc_planner_node(as_agent(other), k, &b), RLVC_OK);
         assert_memory_equal(&a, &b, sizeof a);
     }
 }
@@ -141,7 +140,7 @@ static void test_slices_change_nothing(void **state) {
 /* A control loop: a slice at each interaction, whatever is under way. */
 static void test_learning_while_acting(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     config.capacity = 600;
     config.random = 150;
     rlvc_planner *planner = make(&config, memory);
@@ -152,12 +151,12 @@ static void test_learning_while_acting(void **state) {
         rlvc_progress progress;
         uint32_t action;
         float reward;
-        assert_int_equal(rlvc_planner_act(planner, &action), RLVC_OK);
+        assert_int_equal(planner_act(planner, &action), RLVC_OK);
         slider before = p.world;
         uint8_t end = slider_step(&p.world, action, &reward);
-        rlvc_status status = rlvc_planner_observe(planner, action, reward, p.world.s, end);
+        rlvc_status status = planner_observe(planner, action, reward, p.world.s, end);
         if (status == RLVC_E_BUSY) { /* and nothing has changed: the world waits */
-            assert_int_equal(rlvc_planner_begin(planner, before.s), RLVC_E_BUSY);
+            assert_int_equal(planner_begin(planner, before.s), RLVC_E_BUSY);
             busy++;
             p.world = before;
             end = RLVC_GOES_ON;
@@ -165,14 +164,14 @@ static void test_learning_while_acting(void **state) {
             assert_int_equal(status, RLVC_OK);
         }
         uint32_t budget = i % 3000u < 800u ? 5000u : 600000u;
-        assert_int_equal(rlvc_planner_learn(planner, budget, &progress), RLVC_OK);
+        assert_int_equal(planner_learn(planner, budget, &progress), RLVC_OK);
         while (end != RLVC_GOES_ON) {
             slider_reset(&p.world, &p.rng);
-            status = rlvc_planner_begin(planner, p.world.s);
+            status = planner_begin(planner, p.world.s);
             if (status == RLVC_OK)
                 break;
             assert_int_equal(status, RLVC_E_BUSY);
-            assert_int_equal(rlvc_planner_learn(planner, 60000, &progress), RLVC_OK);
+            assert_int_equal(planner_learn(planner, 60000, &progress), RLVC_OK);
         }
     }
     assert_true(busy > 0);
@@ -182,8 +181,7 @@ static void test_learning_while_acting(void **state) {
 
 /* Ends the episode, learns, and begins the next. @return the searches so far. */
 static uint32_t end_episode(player *p) {
-    assert_int_equal(rlvc_planner_observe(p->planner, 0, 1.0f, p->world.s, RLVC_TRUNCATED),
-                     RLVC_OK);
+    assert_int_equal(planner_observe(p->planner, 0, 1.0f, p->world.s, RLVC_TRUNCATED), RLVC_OK);
     learn(p->planner);
     begin(p);
     return p->planner->searches;
@@ -213,14 +211,14 @@ static void explore_once(player *p, uint32_t action, float reward) {
     rlvc_small_tree_constant(&p->planner->next.tree, action);
     p->planner->next.why = RLVC_PLANNER_EXPLORE;
     begin(p);
-    assert_int_equal(rlvc_planner_observe(p->planner, action, reward, p->world.s, RLVC_TRUNCATED),
+    assert_int_equal(planner_observe(p->planner, action, reward, p->world.s, RLVC_TRUNCATED),
                      RLVC_OK);
 }
 
 /* A tree that explored is a policy if it earned more than the best one is held to. */
 static void test_discoveries_are_policies(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
     const rlvc_archive *archive = &planner->archive;
     player p;
@@ -254,11 +252,10 @@ static void test_a_hopeless_candidate(void **state) {
         planner->gainful = 0;
         planner->failures = 0;
         planner->counter = 8; /* so that the next step makes one search, from the best policy */
-        assert_int_equal(rlvc_planner_budget_min(planner, &least), RLVC_OK);
-        assert_int_equal(rlvc_planner_observe(planner, 0, 1.0f, p.world.s, RLVC_TRUNCATED),
-                         RLVC_OK);
+        assert_int_equal(rlvc_budget_min(as_agent(planner), &least), RLVC_OK);
+        assert_int_equal(planner_observe(planner, 0, 1.0f, p.world.s, RLVC_TRUNCATED), RLVC_OK);
         while (planner->candidates == before)
-            assert_int_equal(rlvc_planner_learn(planner, least, &progress), RLVC_OK);
+            assert_int_equal(planner_learn(planner, least, &progress), RLVC_OK);
         if (hopeless) {
             planner->planning.derived = 0;
             archive->trial[rlvc_archive_best(archive, 0.0f)].score = 1e6f;
@@ -290,30 +287,30 @@ static void test_a_long_exploration(void **state) {
 /* Eight components with their products: a regression of 48 terms, and a larger least budget. */
 static void test_many_terms(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_rng rng;
     rlvc_progress progress;
     float s[8] = {0.0f};
     uint32_t least;
-    config.components = 8;
+    planner_components(8);
     config.actions = 4;
     config.model_leaves = 2;
     config.candidates = config.patience = 1;
     rlvc_planner *planner = make(&config, memory);
-    assert_int_equal(rlvc_planner_budget_min(planner, &least), RLVC_OK);
+    assert_int_equal(rlvc_budget_min(as_agent(planner), &least), RLVC_OK);
     assert_true(least > 10000u);
     rlvc_rng_seed(&rng, 1);
-    assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+    assert_int_equal(planner_begin(planner, s), RLVC_OK);
     for (uint32_t i = 0; i < 200; i++) {
         for (uint32_t k = 0; k < 8; k++) /* of which two are bits, one of them rare */
             s[k] =
                 k < 6 ? rlvc_rng_uniform(&rng) : (float)(rlvc_rng_below(&rng, 20) < k * 2u - 11u);
-        assert_int_equal(rlvc_planner_observe(planner, i % 4u, s[0] + s[6], s,
-                                              i == 199 ? RLVC_TRUNCATED : RLVC_GOES_ON),
+        assert_int_equal(planner_observe(planner, i % 4u, s[0] + s[6], s,
+                                         i == 199 ? RLVC_TRUNCATED : RLVC_GOES_ON),
                          RLVC_OK);
     }
     do
-        assert_int_equal(rlvc_planner_learn(planner, least, &progress), RLVC_OK);
+        assert_int_equal(planner_learn(planner, least, &progress), RLVC_OK);
     while (!progress.done);
     assert_int_equal(planner->fits, 1);
     for (uint32_t k = 0; k <= 8; k++)
@@ -324,13 +321,13 @@ static void test_many_terms(void **state) {
 /* What acts at any percept is what acts in the next episode. */
 static void test_acting_at_any_percept(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
     float s[2] = {0.0f, 0.0f}, far[2] = {0.0f, 2e9f};
     uint32_t action, other, count[SLIDER_ACTIONS] = {0};
     player p;
     for (uint32_t i = 0; i < 300; i++) { /* at random, before there is a policy */
-        assert_int_equal(rlvc_planner_act_at(planner, s, &action), RLVC_OK);
+        assert_int_equal(rlvc_planner_act_at(as_agent(planner), s, &action), RLVC_OK);
         count[action]++;
     }
     assert_true(count[0] > 60 && count[1] > 60 && count[2] > 60);
@@ -338,49 +335,49 @@ static void test_acting_at_any_percept(void **state) {
     play(&p, 900);
     for (uint32_t i = 0; i < 20; i++) {
         s[0] = 0.1f * (float)i - 1.0f;
-        assert_int_equal(rlvc_planner_act_at(planner, s, &action), RLVC_OK);
-        assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
-        assert_int_equal(rlvc_planner_act(planner, &other), RLVC_OK);
+        assert_int_equal(rlvc_planner_act_at(as_agent(planner), s, &action), RLVC_OK);
+        assert_int_equal(planner_begin(planner, s), RLVC_OK);
+        assert_int_equal(planner_act(planner, &other), RLVC_OK);
         assert_int_equal(action, other);
     }
     assert_int_equal(rlvc_planner_act_at(NULL, s, &action), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act_at(planner, NULL, &action), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act_at(planner, s, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act_at(planner, far, &action), RLVC_E_RANGE);
+    assert_int_equal(rlvc_planner_act_at(as_agent(planner), NULL, &action), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act_at(as_agent(planner), s, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act_at(as_agent(planner), far, &action), RLVC_E_PERCEPT);
 }
 
 /* Where an episode never ends, a horizon's interactions are one. */
 static void test_endless_episodes(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     config.horizon = 50;
     rlvc_planner *planner = make(&config, memory);
     rlvc_progress progress;
     rlvc_rng rng;
     float s = 0.0f;
-    config.components = 1;
+    planner_components(1);
     rlvc_rng_seed(&rng, 1);
     config.actions = 2;
     planner = make(&config, memory);
-    assert_int_equal(rlvc_planner_begin(planner, &s), RLVC_OK);
+    assert_int_equal(planner_begin(planner, &s), RLVC_OK);
     assert_int_equal(stats_of(planner).verdict, RLVC_PLANNER_NO_EPISODE);
     for (uint32_t i = 0; i < 1500; i++) {
         uint32_t action;
-        assert_int_equal(rlvc_planner_act(planner, &action), RLVC_OK);
+        assert_int_equal(planner_act(planner, &action), RLVC_OK);
         float reward = 1.0f - fabsf(s - 0.5f);
         s += (action ? 0.1f : -0.1f) + 0.02f * rlvc_rng_uniform(&rng);
         s = s > 2.0f ? 2.0f : s < -2.0f ? -2.0f : s;
-        assert_int_equal(rlvc_planner_observe(planner, action, reward, &s, RLVC_GOES_ON), RLVC_OK);
-        assert_int_equal(rlvc_planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+        assert_int_equal(planner_observe(planner, action, reward, &s, RLVC_GOES_ON), RLVC_OK);
+        assert_int_equal(planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
     }
     assert_int_equal(stats_of(planner).episodes, 30);
     assert_int_equal(stats_of(planner).verdict, RLVC_PLANNER_LEARNT);
     uint32_t action;
     s = 0.9f;
-    assert_int_equal(rlvc_planner_predict(planner, &s, &action), RLVC_OK);
+    assert_int_equal(planner_predict(planner, &s, &action), RLVC_OK);
     assert_int_equal(action, 0);
     s = 0.1f;
-    assert_int_equal(rlvc_planner_predict(planner, &s, &action), RLVC_OK);
+    assert_int_equal(planner_predict(planner, &s, &action), RLVC_OK);
     assert_int_equal(action, 1);
 }
 
@@ -391,16 +388,16 @@ enum { SAME, RANDOM, TERMINATED };
 /* A reward of -1 at each interaction, or a random one that no policy has a say in; episodes of 20
  * interactions, or of 60 that terminate. */
 static rlvc_planner_statistics play_pointless(int kind, uint32_t interactions) {
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
     rlvc_progress progress;
     rlvc_rng rng;
     float s[2] = {0.0f, 0.0f};
     rlvc_rng_seed(&rng, 2);
-    assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+    assert_int_equal(planner_begin(planner, s), RLVC_OK);
     for (uint32_t i = 1; i <= interactions; i++) {
         uint32_t action;
-        assert_int_equal(rlvc_planner_act(planner, &action), RLVC_OK);
+        assert_int_equal(planner_act(planner, &action), RLVC_OK);
         float reward = kind == RANDOM ? rlvc_rng_uniform(&rng) - 1.0f : -1.0f;
         s[0] = rlvc_rng_uniform(&rng);
         s[1] = rlvc_rng_uniform(&rng);
@@ -409,11 +406,11 @@ static rlvc_planner_statistics play_pointless(int kind, uint32_t interactions) {
             end = i % 60u == 0 ? RLVC_TERMINATED : RLVC_GOES_ON;
         else if (i % 20u == 0)
             end = RLVC_TRUNCATED;
-        assert_int_equal(rlvc_planner_observe(planner, action, reward, s, end), RLVC_OK);
+        assert_int_equal(planner_observe(planner, action, reward, s, end), RLVC_OK);
         if (end == RLVC_GOES_ON)
             continue;
-        assert_int_equal(rlvc_planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
-        assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+        assert_int_equal(planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+        assert_int_equal(planner_begin(planner, s), RLVC_OK);
     }
     return stats_of(planner);
 }
@@ -454,30 +451,28 @@ static void test_equally_good_is_learnt(void **state) {
 
 static void test_defaults_and_ranges(void **state) {
     (void)state;
-    rlvc_planner_config config, wrong;
+    rlvc_config config, wrong;
     size_t bytes = 1;
     rlvc_planner *planner;
-    assert_int_equal(rlvc_planner_default(NULL, 4, 2), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_default(&config, 4, 2), RLVC_OK);
-    assert_int_equal(config.components, 4);
+    config = planner_default(4, 2);
+    assert_ptr_equal(config.method, &rlvc_method_planner);
     assert_int_equal(config.actions, 2);
-    assert_int_equal(rlvc_planner_size(NULL, &bytes), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_size(&config, NULL), RLVC_E_NULL);
+    assert_int_equal(planner_size(NULL, &bytes), RLVC_E_NULL);
+    assert_int_equal(planner_size(&config, NULL), RLVC_E_NULL);
     struct {
         size_t field;
         uint32_t low;
         uint32_t high;
     } const range[] = {
-        {offsetof(rlvc_planner_config, components), 1, RLVC_PLANNER_COMPONENTS_MAX},
-        {offsetof(rlvc_planner_config, actions), 2, RLVC_PLANNER_ACTIONS_MAX},
-        {offsetof(rlvc_planner_config, capacity), 2000, RLVC_PLANNER_CAPACITY_MAX},
-        {offsetof(rlvc_planner_config, sample), 32, 2000},
-        {offsetof(rlvc_planner_config, model_leaves), 1, RLVC_PLANNER_MODEL_LEAVES_MAX},
-        {offsetof(rlvc_planner_config, leaves), 2, RLVC_PLANNER_LEAVES_MAX},
-        {offsetof(rlvc_planner_config, horizon), 1, RLVC_PLANNER_CAPACITY_MAX},
-        {offsetof(rlvc_planner_config, random), 32, 1000},
-        {offsetof(rlvc_planner_config, candidates), 1, RLVC_PLANNER_CANDIDATES_MAX},
-        {offsetof(rlvc_planner_config, patience), 1, RLVC_PLANNER_CANDIDATES_MAX},
+        {offsetof(rlvc_config, actions), 2, RLVC_PLANNER_ACTIONS_MAX},
+        {offsetof(rlvc_config, capacity), 2000, RLVC_PLANNER_CAPACITY_MAX},
+        {offsetof(rlvc_config, sample), 32, 2000},
+        {offsetof(rlvc_config, model_leaves), 1, RLVC_PLANNER_MODEL_LEAVES_MAX},
+        {offsetof(rlvc_config, leaves), 2, RLVC_PLANNER_LEAVES_MAX},
+        {offsetof(rlvc_config, horizon), 1, RLVC_PLANNER_CAPACITY_MAX},
+        {offsetof(rlvc_config, random), 32, 1000},
+        {offsetof(rlvc_config, candidates), 1, RLVC_PLANNER_CANDIDATES_MAX},
+        {offsetof(rlvc_config, patience), 1, RLVC_PLANNER_CANDIDATES_MAX},
     };
     for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
         const uint32_t value[] = {range[i].low, range[i].high, range[i].low - 1u,
@@ -485,30 +480,35 @@ static void test_defaults_and_ranges(void **state) {
         for (uint32_t k = 0; k < 4; k++) {
             wrong = config;
             memcpy((unsigned char *)&wrong + range[i].field, &value[k], sizeof value[k]);
-            assert_int_equal(rlvc_planner_size(&wrong, &bytes), k < 2 ? RLVC_OK : RLVC_E_CONFIG);
+            assert_int_equal(planner_size(&wrong, &bytes), k < 2 ? RLVC_OK : RLVC_E_CONFIG);
             assert_true((bytes > 0) == (k < 2));
         }
     }
     wrong = config;
     wrong.capacity = 63;
     wrong.sample = wrong.random = 32;
-    assert_int_equal(rlvc_planner_size(&wrong, &bytes), RLVC_E_CONFIG);
-    assert_int_equal(rlvc_planner_init(&wrong, memory, sizeof memory, &planner), RLVC_E_CONFIG);
+    assert_int_equal(planner_size(&wrong, &bytes), RLVC_E_CONFIG);
+    assert_int_equal(planner_init(&wrong, memory, sizeof memory, &planner), RLVC_E_CONFIG);
     assert_null(planner);
+    for (uint32_t components = 64; components <= 65; components++) {
+        planner_components(components);
+        assert_int_equal(planner_size(&config, &bytes), components == 64 ? RLVC_OK : RLVC_E_CONFIG);
+    }
+    planner_domain.percept_bytes = 3;
+    assert_int_equal(planner_size(&config, &bytes), RLVC_E_CONFIG);
 }
 
 static void test_memory(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner;
     size_t bytes;
-    assert_int_equal(rlvc_planner_size(&config, &bytes), RLVC_OK);
-    assert_int_equal(rlvc_planner_init(&config, memory, bytes, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_init(&config, NULL, bytes, &planner), RLVC_E_NULL);
+    assert_int_equal(planner_size(&config, &bytes), RLVC_OK);
+    assert_int_equal(planner_init(&config, memory, bytes, NULL), RLVC_E_NULL);
+    assert_int_equal(planner_init(&config, NULL, bytes, &planner), RLVC_E_NULL);
     block_fill(memory, 0x5a, sizeof memory);
-    assert_int_equal(rlvc_planner_init(&config, memory, bytes - 1u, &planner), RLVC_E_MEMORY);
-    assert_int_equal(rlvc_planner_init(&config, (char *)memory + 4, bytes, &planner),
-                     RLVC_E_MEMORY);
+    assert_int_equal(planner_init(&config, memory, bytes - 1u, &planner), RLVC_E_MEMORY);
+    assert_int_equal(planner_init(&config, (char *)memory + 4, bytes, &planner), RLVC_E_MEMORY);
     for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
         assert_true(memory[i] == UINT64_C(0x5a5a5a5a5a5a5a5a));
     assert_null(planner);
@@ -521,13 +521,13 @@ static void test_the_macro_is_enough(void **state) {
     (void)state;
     for (uint32_t d = 1; d <= 64; d++) {
         for (uint32_t a = 2; a <= 64; a += 7) {
-            rlvc_planner_config config;
+            rlvc_config config;
             size_t bytes;
-            (void)rlvc_planner_default(&config, d, a);
+            config = planner_default(d, a);
             config.model_leaves = 1u + (d * 5u + a) % 40u;
             config.capacity = 401u + d;
             config.sample = 33u + a;
-            assert_int_equal(rlvc_planner_size(&config, &bytes), RLVC_OK);
+            assert_int_equal(planner_size(&config, &bytes), RLVC_OK);
             size_t bound =
                 RLVC_PLANNER_BYTES(d, a, config.capacity, config.sample, config.model_leaves);
 #ifndef RLVC_RED_ZONES
@@ -542,63 +542,66 @@ static void test_the_macro_is_enough(void **state) {
 
 static void test_nulls_and_order(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
     rlvc_planner_statistics statistics;
     rlvc_planner_test node;
     rlvc_progress progress;
     float s[2] = {0.0f, 0.0f};
     uint32_t action;
-    assert_int_equal(rlvc_planner_begin(NULL, s), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_begin(planner, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act(NULL, &action), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act(planner, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_observe(NULL, 0, 0.0f, s, 0), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_observe(planner, 0, 0.0f, NULL, 0), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_learn(NULL, 1u << 20, &progress), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_learn(planner, 1u << 20, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_budget_min(NULL, &action), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_budget_min(planner, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_predict(NULL, s, &action), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_predict(planner, NULL, &action), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_predict(planner, s, NULL), RLVC_E_NULL);
+    assert_int_equal(planner_begin(NULL, s), RLVC_E_NULL);
+    assert_int_equal(planner_begin(planner, NULL), RLVC_E_NULL);
+    assert_int_equal(planner_act(NULL, &action), RLVC_E_NULL);
+    assert_int_equal(rlvc_act(as_agent(planner), NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act_at(as_agent(planner), s, NULL), RLVC_E_NULL);
+    assert_int_equal(planner_observe(NULL, 0, 0.0f, s, 0), RLVC_E_NULL);
+    assert_int_equal(planner_observe(planner, 0, 0.0f, NULL, 0), RLVC_E_NULL);
+    assert_int_equal(planner_learn(NULL, 1u << 20, &progress), RLVC_E_NULL);
+    assert_int_equal(planner_learn(planner, 1u << 20, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_budget_min(as_agent(NULL), &action), RLVC_E_NULL);
+    assert_int_equal(rlvc_budget_min(as_agent(planner), NULL), RLVC_E_NULL);
+    assert_int_equal(planner_predict(NULL, s, &action), RLVC_E_NULL);
+    assert_int_equal(planner_predict(planner, NULL, &action), RLVC_E_NULL);
+    assert_int_equal(planner_predict(planner, s, NULL), RLVC_OK);
     assert_int_equal(rlvc_planner_stats(NULL, &statistics), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_stats(planner, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_stats(as_agent(planner), NULL), RLVC_E_NULL);
     assert_int_equal(rlvc_planner_node(NULL, 0, &node), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_node(planner, 0, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act(planner, &action), RLVC_E_ORDER);
-    assert_int_equal(rlvc_planner_observe(planner, 0, 0.0f, s, 0), RLVC_E_ORDER);
-    assert_int_equal(rlvc_planner_predict(planner, s, &action), RLVC_OK);
+    assert_int_equal(rlvc_planner_node(as_agent(planner), 0, NULL), RLVC_E_NULL);
+    assert_int_equal(planner_act(planner, &action), RLVC_E_ORDER);
+    assert_int_equal(planner_observe(planner, 0, 0.0f, s, 0), RLVC_E_ORDER);
+    assert_int_equal(planner_predict(planner, s, &action), RLVC_OK);
     assert_int_equal(action, 0);
-    assert_int_equal(rlvc_planner_budget_min(planner, &action), RLVC_OK);
-    assert_int_equal(rlvc_planner_learn(planner, action - 1u, &progress), RLVC_E_RANGE);
-    assert_int_equal(rlvc_planner_learn(planner, action, &progress), RLVC_OK);
+    assert_int_equal(rlvc_budget_min(as_agent(planner), &action), RLVC_OK);
+    assert_int_equal(planner_learn(planner, action - 1u, &progress), RLVC_E_RANGE);
+    assert_int_equal(planner_learn(planner, action, &progress), RLVC_OK);
     assert_true(progress.done && progress.work == 0); /* nothing is due */
 }
 
 static void test_bad_percepts_and_rewards(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
     const float bad[] = {NAN, INFINITY, -INFINITY, 1.1e9f};
     float s[2] = {0.5f, -1e9f};
     uint32_t action;
-    assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+    assert_int_equal(planner_begin(planner, s), RLVC_OK);
     rlvc_planner before = *planner;
     for (uint32_t i = 0; i < 4; i++) {
         float wrong[2] = {0.0f, bad[i]};
-        assert_int_equal(rlvc_planner_begin(planner, wrong), RLVC_E_RANGE);
-        assert_int_equal(rlvc_planner_observe(planner, 0, 0.0f, wrong, 0), RLVC_E_RANGE);
-        assert_int_equal(rlvc_planner_predict(planner, wrong, &action), RLVC_E_RANGE);
+        assert_int_equal(planner_begin(planner, wrong), RLVC_E_PERCEPT);
+        assert_int_equal(planner_observe(planner, 0, 0.0f, wrong, 0), RLVC_E_PERCEPT);
+        assert_int_equal(planner_predict(planner, wrong, &action), RLVC_E_PERCEPT);
         if (i < 3)
-            assert_int_equal(rlvc_planner_observe(planner, 0, bad[i], s, 0), RLVC_E_REWARD);
+            assert_int_equal(planner_observe(planner, 0, bad[i], s, 0), RLVC_E_REWARD);
     }
-    assert_int_equal(rlvc_planner_observe(planner, 0, 2e12f, s, 0), RLVC_E_REWARD);
-    assert_int_equal(rlvc_planner_observe(planner, 3, 0.0f, s, 0), RLVC_E_RANGE);
-    assert_int_equal(rlvc_planner_observe(planner, 0, 0.0f, s, 3), RLVC_E_RANGE);
+    assert_int_equal(planner_observe(planner, 0, 2e12f, s, 0), RLVC_E_REWARD);
+    assert_int_equal(planner_observe(planner, 3, 0.0f, s, 0), RLVC_E_RANGE);
+    assert_int_equal(planner_observe(planner, 0, 0.0f, s, 3), RLVC_E_RANGE);
+    assert_int_equal(rlvc_observe(as_agent(planner), (rlvc_choice){0, 2}, 0.0f, s, 0),
+                     RLVC_E_RANGE);
     assert_memory_equal(planner, &before, sizeof before);
-    assert_int_equal(rlvc_planner_observe(planner, 2, 1.0f, s, RLVC_TERMINATED), RLVC_OK);
-    assert_int_equal(rlvc_planner_observe(planner, 2, 1.0f, s, 0), RLVC_E_ORDER);
+    assert_int_equal(planner_observe(planner, 2, 1.0f, s, RLVC_TERMINATED), RLVC_OK);
+    assert_int_equal(planner_observe(planner, 2, 1.0f, s, 0), RLVC_E_ORDER);
 }
 
 /* ------------------------------------------------------------------ as a policy by itself */
@@ -617,26 +620,27 @@ static int append(void *ctx, const char *part, size_t bytes) {
 static void test_the_policy_alone(void **state) {
     (void)state;
     static uint64_t block[RLVC_PLANNER_POLICY_BYTES / 8u];
-    rlvc_planner_config config = small_config(), same;
+    rlvc_config config = small_config();
     rlvc_planner *planner = make(&config, memory);
-    rlvc_thresholds thresholds;
-    rlvc_domain domain;
+    rlvc_policy_config options;
+    rlvc_policy_info info;
     rlvc_policy *policy;
     player p;
-    size_t used = 0;
-    assert_int_equal(rlvc_planner_config_of(planner, &same), RLVC_OK);
-    assert_memory_equal(&same, &config, sizeof same);
-    assert_int_equal(rlvc_thresholds_default(&thresholds, SLIDER_COMPONENTS), RLVC_OK);
-    assert_int_equal(rlvc_thresholds_domain(&thresholds, &domain), RLVC_OK);
+    size_t used = 0, bytes;
+    assert_int_equal(rlvc_policy_default(as_agent(planner), &options), RLVC_OK);
+    assert_int_equal(rlvc_policy_size(as_agent(planner), &options, &bytes), RLVC_OK);
+    assert_int_equal(bytes, sizeof block);
     start(&p, planner, 2);
     for (uint32_t round = 0; round < 3; round++) {
-        assert_int_equal(rlvc_planner_policy(planner, &domain, block, sizeof block, &policy),
-                         RLVC_OK);
+        assert_int_equal(
+            rlvc_policy_make(as_agent(planner), &options, block, bytes, &policy, &info), RLVC_OK);
+        assert_int_equal(info.leaves, stats_of(planner).leaves);
+        assert_int_equal(info.as_agent, 1);
         for (uint32_t i = 0; i < 500; i++) {
             float s[2] = {2.0f * rlvc_rng_uniform(&p.rng) - 1.0f,
                           2.0f * rlvc_rng_uniform(&p.rng) - 1.0f};
             uint32_t expected, action;
-            assert_int_equal(rlvc_planner_predict(planner, s, &expected), RLVC_OK);
+            assert_int_equal(planner_predict(planner, s, &expected), RLVC_OK);
             assert_int_equal(rlvc_policy_act(policy, s, &action), RLVC_OK);
             assert_int_equal(action, expected);
         }
@@ -652,31 +656,181 @@ static void test_the_policy_alone(void **state) {
 static void test_no_policy(void **state) {
     (void)state;
     static uint64_t block[RLVC_PLANNER_POLICY_BYTES / 8u];
-    rlvc_planner_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
-    rlvc_thresholds thresholds, others;
-    rlvc_domain domain, other;
+    rlvc_config config = small_config();
+    rlvc_agent *agent = as_agent(make(&config, memory));
+    rlvc_policy_config options;
     rlvc_policy *policy;
     size_t bytes = sizeof block;
-    (void)rlvc_thresholds_default(&thresholds, SLIDER_COMPONENTS);
-    (void)rlvc_thresholds_domain(&thresholds, &domain);
-    (void)rlvc_thresholds_default(&others, 3);
-    (void)rlvc_thresholds_domain(&others, &other);
-    assert_int_equal(rlvc_planner_policy(planner, &domain, block, bytes, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_policy(NULL, &domain, block, bytes, &policy), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_policy(planner, NULL, block, bytes, &policy), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_policy(planner, &domain, NULL, bytes, &policy), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_policy(planner, &other, block, bytes, &policy), RLVC_E_MISMATCH);
-    domain.kind = RLVC_DOMAIN_OWN;
-    assert_int_equal(rlvc_planner_policy(planner, &domain, block, bytes, &policy), RLVC_E_MISMATCH);
-    domain.kind = RLVC_DOMAIN_THRESHOLDS;
-    assert_int_equal(rlvc_planner_policy(planner, &domain, block, bytes - 1u, &policy),
+    (void)rlvc_policy_default(agent, &options);
+    assert_int_equal(rlvc_policy_make(agent, &options, block, bytes, NULL, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_policy_make(NULL, &options, block, bytes, &policy, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_policy_make(agent, &options, NULL, bytes, &policy, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_policy_make(agent, &options, block, bytes - 1u, &policy, NULL),
                      RLVC_E_MEMORY);
-    assert_int_equal(rlvc_planner_policy(planner, &domain, (char *)block + 4, bytes, &policy),
+    assert_int_equal(rlvc_policy_make(agent, &options, (char *)block + 4, bytes, &policy, NULL),
                      RLVC_E_MEMORY);
     assert_null(policy);
-    assert_int_equal(rlvc_planner_config_of(NULL, &config), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_config_of(planner, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_policy_make(agent, &options, block, bytes, &policy, NULL), RLVC_OK);
+}
+
+/* ------------------------------------------------------------------ as any agent */
+
+static void test_the_tree_is_the_policy(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    rlvc_agent *agent = as_agent(planner);
+    rlvc_statistics statistics;
+    rlvc_learnt learnt;
+    player p;
+    size_t used = 0;
+    start(&p, planner, 2);
+    for (uint32_t round = 0; round < 3; round++) {
+        assert_int_equal(rlvc_stats(agent, &statistics), RLVC_OK);
+        rlvc_view(agent, &learnt);
+        assert_int_equal(rlvc_tree_check(learnt.tree), 1);
+        assert_int_equal(statistics.classes, learnt.tree->classes);
+        assert_int_equal(statistics.depth, rlvc_tree_deepest(learnt.tree));
+        assert_int_equal(statistics.interactions, 700u * round);
+        for (uint32_t i = 0; i < 500; i++) {
+            float s[2] = {2.0f * rlvc_rng_uniform(&p.rng) - 1.0f,
+                          2.0f * rlvc_rng_uniform(&p.rng) - 1.0f};
+            uint32_t class_id, action, expected;
+            assert_int_equal(rlvc_predict(agent, s, &class_id, &action), RLVC_OK);
+            assert_int_equal(rlvc_tree_classify(learnt.tree, learnt.domain, s, &expected), RLVC_OK);
+            assert_int_equal(class_id, expected);
+            assert_int_equal(learnt.policy[class_id], action);
+        }
+        play(&p, 700);
+    }
+    assert_int_equal(statistics.stored, 1400);
+    assert_int_equal(rlvc_print(agent, RLVC_PRINT_TEXT, append, &used), RLVC_OK);
+    assert_non_null(strstr(text, "?\n"));
+    used = 0;
+    assert_int_equal(rlvc_export_c(agent, "slide", append, &used, NULL), RLVC_OK);
+    assert_non_null(strstr(text, "slide"));
+}
+
+/* What is of classes alone, and what is of planners alone. */
+static void test_another_method(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_agent *agent = as_agent(make(&config, memory));
+    rlvc_counts counts = {0};
+    rlvc_progress progress;
+    rlvc_planner_statistics statistics;
+    rlvc_planner_test node;
+    float s[2] = {0.0f, 0.0f};
+    uint32_t number;
+    size_t bytes;
+    assert_int_equal(rlvc_q(agent, 0, 0, NULL, NULL), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_value(agent, 0, NULL, NULL), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_split_at(agent, 0, NULL, NULL), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_learn_abandon(agent), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_prune(agent, 0.0f, 0.0f, &number), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_counts_size(agent, &counts, &bytes), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_learn_counts(agent, &counts, other_memory, 8, &progress),
+                     RLVC_E_MISMATCH);
+    config.method = &rlvc_method_classes;
+    assert_int_equal(planner_size(&config, &bytes), RLVC_OK);
+    assert_int_equal(rlvc_agent_init(&config, &planner_domain, other_memory, bytes, &agent),
+                     RLVC_OK);
+    assert_int_equal(rlvc_planner_act_at(agent, s, &number), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_planner_stats(agent, &statistics), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_planner_node(agent, 0, &node), RLVC_E_MISMATCH);
+    assert_int_equal(rlvc_value(agent, 0, NULL, NULL), RLVC_OK);
+    assert_int_equal(rlvc_budget_min(agent, &number), RLVC_OK);
+    assert_int_equal(number, RLVC_BUDGET_MIN);
+    assert_int_equal(rlvc_budget_min(agent, NULL), RLVC_E_NULL);
+    config.method = NULL;
+    bytes = 1;
+    assert_int_equal(planner_size(&config, &bytes), RLVC_E_CONFIG);
+    assert_int_equal(bytes, 0);
+    assert_int_equal(planner_size(&config, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_agent_init(&config, &planner_domain, memory, sizeof memory, &agent),
+                     RLVC_E_CONFIG);
+    assert_null(agent);
+    assert_int_equal(rlvc_agent_init(&config, &planner_domain, memory, sizeof memory, NULL),
+                     RLVC_E_NULL);
+}
+
+/* Where one method alone is built in its functions are the public ones: they look for null pointers
+ * themselves. */
+static void test_without_a_table(void **state) {
+    (void)state;
+    const rlvc_choice choice = {0, 0};
+    rlvc_config config = small_config();
+    rlvc_store store = {0};
+    rlvc_agent *agent = as_agent(make(&config, memory));
+    rlvc_choice chosen;
+    rlvc_progress progress;
+    rlvc_statistics statistics;
+    float s[2] = {0.0f, 0.0f};
+    uint32_t number = 1;
+    size_t bytes = 1;
+    assert_int_equal(rlvc_snapshot_size(NULL, &planner_domain, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_snapshot_size(NULL, &planner_domain, &number), RLVC_E_NULL);
+    assert_int_equal(number, 0);
+    assert_int_equal(rlvc_agent_size(NULL, &planner_domain, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_agent_size(NULL, &planner_domain, &bytes), RLVC_E_NULL);
+    assert_int_equal(rlvc_agent_init(NULL, &planner_domain, memory, 8, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_load(NULL, &planner_domain, memory, 8, &store, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_agent_check(NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_save(NULL, &store), RLVC_E_NULL);
+    assert_int_equal(rlvc_stats(NULL, &statistics), RLVC_E_NULL);
+    assert_int_equal(rlvc_stats(agent, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_classes_learn(NULL, RLVC_BUDGET_MIN, &progress), RLVC_E_NULL);
+    assert_int_equal(rlvc_classes_budget_min(NULL, &number), RLVC_E_NULL);
+    assert_int_equal(rlvc_classes_save(NULL, &store), RLVC_E_NULL);
+    assert_int_equal(rlvc_classes_load(NULL, &planner_domain, memory, 8, &store, &agent),
+                     RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_begin(NULL, s), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_act(NULL, &chosen), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_observe(NULL, choice, 0.0f, s, 0), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_learn(NULL, 1u << 20, &progress), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_budget_min(NULL, &number), RLVC_E_NULL);
+    assert_int_equal(rlvc_planner_check(NULL), RLVC_E_NULL);
+}
+
+static rlvc_agent *printed;
+
+/* While a callback runs, nothing else may. */
+static int call_back(void *ctx, const char *part, size_t bytes) {
+    rlvc_planner *planner = (rlvc_planner *)(void *)printed;
+    rlvc_statistics statistics;
+    rlvc_planner_statistics more;
+    rlvc_planner_test node;
+    rlvc_progress progress;
+    rlvc_policy_config options = {0};
+    rlvc_policy *policy;
+    float s[2] = {0.0f, 0.0f};
+    uint32_t action;
+    assert_int_equal(planner_begin(planner, s), RLVC_E_REENTERED);
+    assert_int_equal(planner_act(planner, &action), RLVC_E_REENTERED);
+    assert_int_equal(planner_observe(planner, 0, 0.0f, s, 0), RLVC_E_REENTERED);
+    assert_int_equal(planner_learn(planner, 1u << 20, &progress), RLVC_E_REENTERED);
+    assert_int_equal(planner_predict(planner, s, &action), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_planner_act_at(printed, s, &action), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_stats(printed, &statistics), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_planner_stats(printed, &more), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_planner_node(printed, 0, &node), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_agent_check(printed), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_print(printed, RLVC_PRINT_TEXT, append, ctx), RLVC_E_REENTERED);
+    assert_int_equal(rlvc_export_c(printed, "again", append, ctx, NULL), RLVC_E_REENTERED);
+    assert_int_equal(
+        rlvc_policy_make(printed, &options, other_memory, sizeof other_memory, &policy, NULL),
+        RLVC_E_REENTERED);
+    return append(ctx, part, bytes);
+}
+
+static void test_calls_from_callbacks(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    size_t used = 0;
+    printed = as_agent(make(&config, memory));
+    assert_int_equal(rlvc_print(printed, RLVC_PRINT_TEXT, call_back, &used), RLVC_OK);
+    assert_string_equal(text, "action 0\n");
+    assert_int_equal(rlvc_agent_check(printed), RLVC_OK);
 }
 
 /* A policy that has left the archive while it acted gets no return of another's. */
@@ -687,18 +841,18 @@ static void test_a_return_of_one_that_left(void **state) {
     rlvc_archive *archive = &planner->archive;
     assert_true(archive->count > 0);
     float s[2] = {0.0f, 0.0f};
-    assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+    assert_int_equal(planner_begin(planner, s), RLVC_OK);
     planner->acting.why = RLVC_PLANNER_NEW;
     planner->acting.trial = 0;
     planner->acting.serial = archive->trial[0].serial + 1000u;
     uint32_t episodes = archive->trial[0].episodes;
-    assert_int_equal(rlvc_planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
+    assert_int_equal(planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
     assert_int_equal(archive->trial[0].episodes, episodes);
-    assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+    assert_int_equal(planner_begin(planner, s), RLVC_OK);
     planner->acting.why = RLVC_PLANNER_NEW;
     planner->acting.trial = 0;
     planner->acting.serial = archive->trial[0].serial;
-    assert_int_equal(rlvc_planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
+    assert_int_equal(planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
     assert_int_equal(archive->trial[0].episodes, episodes + 1u);
 }
 
@@ -725,6 +879,10 @@ int main(void) {
         cmocka_unit_test(test_a_return_of_one_that_left),
         cmocka_unit_test(test_the_policy_alone),
         cmocka_unit_test(test_no_policy),
+        cmocka_unit_test(test_the_tree_is_the_policy),
+        cmocka_unit_test(test_another_method),
+        cmocka_unit_test(test_without_a_table),
+        cmocka_unit_test(test_calls_from_callbacks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

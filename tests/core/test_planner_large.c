@@ -9,7 +9,7 @@
 
 #include "block.h"
 #include "base/rng.h"
-#include "rlvc/planner.h"
+#include "planners.h"
 #include <string.h>
 
 #define COMPONENTS 45u /* with two actions 47 terms: a fit that looks at ten rows a term */
@@ -25,7 +25,7 @@ static void move(float *s, uint32_t action, rlvc_rng *rng) {
 }
 
 static void test_many_components(void **state) {
-    rlvc_planner_config config;
+    rlvc_config config;
     rlvc_planner *planner;
     rlvc_progress progress;
     rlvc_planner_statistics statistics;
@@ -34,29 +34,28 @@ static void test_many_components(void **state) {
     size_t bytes;
     (void)state;
     rlvc_rng_seed(&rng, 1);
-    assert_int_equal(rlvc_planner_default(&config, COMPONENTS, 2), RLVC_OK);
+    config = planner_default(COMPONENTS, 2);
     config.candidates = 50;
     config.model_leaves = 4;
-    assert_int_equal(rlvc_planner_size(&config, &bytes), RLVC_OK);
+    assert_int_equal(planner_size(&config, &bytes), RLVC_OK);
     assert_true(bytes <= sizeof memory);
-    assert_int_equal(rlvc_planner_init(&config, memory, sizeof memory, &planner), RLVC_OK);
+    assert_int_equal(planner_init(&config, memory, sizeof memory, &planner), RLVC_OK);
     for (uint32_t episode = 0; episode < 3; episode++) {
         memset(s, 0, sizeof s);
-        assert_int_equal(rlvc_planner_begin(planner, s), RLVC_OK);
+        assert_int_equal(planner_begin(planner, s), RLVC_OK);
         for (uint32_t t = 1; t <= STEPS; t++) {
             uint32_t action;
-            assert_int_equal(rlvc_planner_act(planner, &action), RLVC_OK);
+            assert_int_equal(planner_act(planner, &action), RLVC_OK);
             move(s, action, &rng);
-            assert_int_equal(rlvc_planner_observe(planner, action, s[0], s,
-                                                  t == STEPS ? RLVC_TRUNCATED : RLVC_GOES_ON),
+            assert_int_equal(planner_observe(planner, action, s[0], s,
+                                             t == STEPS ? RLVC_TRUNCATED : RLVC_GOES_ON),
                              RLVC_OK);
         }
         do {
-            assert_int_equal(rlvc_planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress),
-                             RLVC_OK);
+            assert_int_equal(planner_learn(planner, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
         } while (!progress.done);
     }
-    assert_int_equal(rlvc_planner_stats(planner, &statistics), RLVC_OK);
+    assert_int_equal(rlvc_planner_stats(as_agent(planner), &statistics), RLVC_OK);
     assert_int_equal(statistics.interactions, 3 * STEPS);
     assert_true(statistics.fits > 0);
 }

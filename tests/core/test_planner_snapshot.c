@@ -10,7 +10,6 @@
 #include "base/bytes.h"
 #include "base/crc.h"
 #include "block.h"
-#include "plan/planner_state.h"
 #include "store/planner_check.h"
 #include "slider_player.h"
 
@@ -46,8 +45,8 @@ static int shelf_write(void *ctx, uint32_t offset, const void *buffer, uint32_t 
     return fails(of);
 }
 
-static rlvc_planner_config small_config(void) {
-    rlvc_planner_config config = slider_config();
+static rlvc_config small_config(void) {
+    rlvc_config config = slider_config();
     config.capacity = 700;
     config.sample = 300;
     config.candidates = 60;
@@ -55,22 +54,22 @@ static rlvc_planner_config small_config(void) {
     return config;
 }
 
-static rlvc_store empty_store(shelf *of, const rlvc_planner_config *config) {
+static rlvc_store empty_store(shelf *of, const rlvc_config *config) {
     rlvc_store store = {of, 0, shelf_read, shelf_write, NULL, NULL};
     memset(of, 0, sizeof *of);
-    assert_int_equal(rlvc_planner_snapshot_size(config, &store.slot_bytes), RLVC_OK);
+    assert_int_equal(rlvc_snapshot_size(config, &planner_domain, &store.slot_bytes), RLVC_OK);
     assert_true(store.slot_bytes <= SLOT_MOST);
     return store;
 }
 
-static rlvc_planner *make(const rlvc_planner_config *config, uint64_t *block) {
+static rlvc_planner *make(const rlvc_config *config, uint64_t *block) {
     return make_in(config, block, sizeof memory);
 }
 
-static rlvc_status load_into(const rlvc_planner_config *config, const rlvc_store *store,
+static rlvc_status load_into(const rlvc_config *config, const rlvc_store *store,
                              rlvc_planner **planner) {
-    rlvc_status status =
-        rlvc_planner_load(config, other_memory, sizeof other_memory, store, planner);
+    rlvc_status status = rlvc_load(config, &planner_domain, other_memory, sizeof other_memory,
+                                   store, (rlvc_agent **)planner);
     assert_true((status == RLVC_OK) == (*planner != NULL));
     return status;
 }
@@ -78,7 +77,7 @@ static rlvc_status load_into(const rlvc_planner_config *config, const rlvc_store
 /* The snapshot of a planner, and its length. */
 static uint32_t content_of(rlvc_planner *planner, unsigned char *content) {
     rlvc_store store = empty_store(&second, &planner->config);
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
     uint32_t bytes = (uint32_t)rlvc_get(second.byte + 12, 4);
     memcpy(content, second.byte, bytes);
     return bytes;
@@ -99,13 +98,13 @@ static void test_it_goes_on(void **state) {
     (void)state;
     static const uint32_t at[] = {0, 37, 260, 633, 1000};
     for (uint32_t i = 0; i < sizeof at / sizeof at[0]; i++) {
-        rlvc_planner_config config = small_config();
+        rlvc_config config = small_config();
         rlvc_store store = empty_store(&first, &config);
         player p, q;
         rlvc_planner *planner = make(&config, memory), *other;
         start(&p, planner, 5);
         play(&p, at[i]);
-        assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+        assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
         assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
         assert_same(planner, other);
         q = p;
@@ -118,33 +117,40 @@ static void test_it_goes_on(void **state) {
 
 static void test_before_the_first_percept(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config(), found;
+    rlvc_config config = small_config();
+    rlvc_snapshot_info found;
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *planner = make(&config, memory), *other;
     player p, q;
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
     assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
     start(&p, planner, 3);
     start(&q, other, 3);
     play(&p, 400);
     play(&q, 400);
     assert_same(planner, other);
-    assert_int_equal(rlvc_planner_snapshot_peek(&store, &found), RLVC_OK);
-    assert_memory_equal(&found, &config, sizeof config);
+    assert_int_equal(rlvc_snapshot_peek(&store, &found), RLVC_OK);
+    assert_int_equal(found.version, RLVC_PLANNER_SNAPSHOT_VERSION);
+    assert_int_equal(found.percept_bytes, sizeof p.world.s);
+    assert_int_equal(found.feature_bytes, RLVC_THRESHOLDS_FEATURE_BYTES);
+    assert_null(found.config.method);
+    assert_int_equal(found.config.capacity, config.capacity);
+    assert_memory_equal(&found.config.sample, &config.sample,
+                        RLVC_CONFIG_BYTES - offsetof(rlvc_config, sample));
 }
 
 /* An episode may have ended that was not learnt from yet. */
 static void test_learning_that_is_due(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *planner = make(&config, memory), *other;
     player p;
     float s[2] = {0.0f, 0.0f};
     start(&p, planner, 3);
     play(&p, 500);
-    assert_int_equal(rlvc_planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+    assert_int_equal(planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
     assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
     learn(planner);
     learn(other);
@@ -155,7 +161,7 @@ static void test_learning_that_is_due(void **state) {
 static void test_the_size_is_enough(void **state) {
     (void)state;
     for (uint32_t leaves = 2; leaves <= 32; leaves += 15) {
-        rlvc_planner_config config = small_config();
+        rlvc_config config = small_config();
         config.model_leaves = leaves;
         rlvc_store store = empty_store(&first, &config);
         rlvc_planner *planner = make(&config, memory);
@@ -164,7 +170,7 @@ static void test_the_size_is_enough(void **state) {
         start(&p, planner, leaves);
         for (uint32_t i = 0; i < 12; i++) {
             play(&p, 100);
-            assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+            assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
         }
         for (uint32_t slot = 0; slot < 2; slot++) {
             uint32_t n = (uint32_t)rlvc_get(first.byte + slot * store.slot_bytes + 12, 4);
@@ -172,11 +178,11 @@ static void test_the_size_is_enough(void **state) {
         }
         assert_true(bytes <= store.slot_bytes);
     }
-    rlvc_planner_config large = small_config();
+    rlvc_config large = small_config();
     uint32_t bytes = 1;
     large.capacity = RLVC_PLANNER_CAPACITY_MAX;
-    large.components = 64;
-    assert_int_equal(rlvc_planner_snapshot_size(&large, &bytes), RLVC_E_MEMORY);
+    planner_components(64);
+    assert_int_equal(rlvc_snapshot_size(&large, &planner_domain, &bytes), RLVC_E_MEMORY);
     assert_int_equal(bytes, 0);
 }
 
@@ -184,40 +190,43 @@ static void test_the_size_is_enough(void **state) {
 
 static void test_arguments(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config(), wrong = config;
+    rlvc_config config = small_config(), wrong = config;
+    rlvc_snapshot_info found;
     rlvc_store store = empty_store(&first, &config), bad = store;
     rlvc_planner *planner = make(&config, memory), *other;
     uint32_t bytes;
     wrong.actions = 1;
-    assert_int_equal(rlvc_planner_snapshot_size(&config, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_snapshot_size(NULL, &bytes), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_snapshot_size(&wrong, &bytes), RLVC_E_CONFIG);
-    assert_int_equal(rlvc_planner_save(NULL, &store), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_save(planner, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_load(&config, other_memory, sizeof other_memory, &store, NULL),
-                     RLVC_E_NULL);
+    assert_int_equal(rlvc_snapshot_size(&config, &planner_domain, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_snapshot_size(NULL, &planner_domain, &bytes), RLVC_E_NULL);
+    assert_int_equal(rlvc_snapshot_size(&wrong, &planner_domain, &bytes), RLVC_E_CONFIG);
+    assert_int_equal(rlvc_save(NULL, &store), RLVC_E_NULL);
+    assert_int_equal(rlvc_save(as_agent(planner), NULL), RLVC_E_NULL);
+    assert_int_equal(
+        rlvc_load(&config, &planner_domain, other_memory, sizeof other_memory, &store, NULL),
+        RLVC_E_NULL);
     assert_int_equal(load_into(NULL, &store, &other), RLVC_E_NULL);
     assert_int_equal(load_into(&wrong, &store, &other), RLVC_E_CONFIG);
     assert_int_equal(load_into(&config, NULL, &other), RLVC_E_NULL);
     assert_int_equal(load_into(&config, &store, &other), RLVC_E_EMPTY);
-    assert_int_equal(rlvc_planner_snapshot_peek(&store, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_snapshot_peek(NULL, &wrong), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_snapshot_peek(&store, &wrong), RLVC_E_EMPTY);
-    assert_int_equal(wrong.actions, 0);
+    assert_int_equal(rlvc_snapshot_peek(&store, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_snapshot_peek(NULL, &found), RLVC_E_NULL);
+    assert_int_equal(rlvc_snapshot_peek(&store, &found), RLVC_E_EMPTY);
     bad.slot_bytes -= RLVC_STORE_UNIT;
-    assert_int_equal(rlvc_planner_save(planner, &bad), RLVC_E_RANGE);
+    assert_int_equal(rlvc_save(as_agent(planner), &bad), RLVC_E_RANGE);
     bad.slot_bytes = store.slot_bytes + 1u;
     assert_int_equal(load_into(&config, &bad, &other), RLVC_E_RANGE);
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
     wrong = config;
     wrong.seed++;
     assert_int_equal(load_into(&wrong, &store, &other), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_planner_load(&config, other_memory, 64, &store, &other), RLVC_E_MEMORY);
+    assert_int_equal(
+        rlvc_load(&config, &planner_domain, other_memory, 64, &store, (rlvc_agent **)&other),
+        RLVC_E_MEMORY);
 }
 
 static void test_not_in_the_midst_of_learning(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *planner = make(&config, memory), *other;
     rlvc_progress progress;
@@ -226,39 +235,41 @@ static void test_not_in_the_midst_of_learning(void **state) {
     uint32_t least;
     start(&p, planner, 3);
     play(&p, 500);
-    assert_int_equal(rlvc_planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
-    assert_int_equal(rlvc_planner_budget_min(planner, &least), RLVC_OK);
-    assert_int_equal(rlvc_planner_learn(planner, least, &progress), RLVC_OK);
+    assert_int_equal(planner_observe(planner, 0, 1.0f, s, RLVC_TRUNCATED), RLVC_OK);
+    assert_int_equal(rlvc_budget_min(as_agent(planner), &least), RLVC_OK);
+    assert_int_equal(planner_learn(planner, least, &progress), RLVC_OK);
     assert_false(progress.done);
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_E_BUSY);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_E_BUSY);
+    assert_int_equal(rlvc_agent_check(as_agent(planner)), RLVC_E_BUSY);
     assert_int_equal(load_into(&config, &store, &other), RLVC_E_EMPTY);
     learn(planner);
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
 }
 
-static rlvc_planner *saved(const rlvc_planner_config *config, rlvc_store *store) {
+static rlvc_planner *saved(const rlvc_config *config, rlvc_store *store) {
     rlvc_planner *planner = make(config, memory);
     player p;
     *store = empty_store(&first, config);
     start(&p, planner, 5);
     play(&p, 1000);
-    assert_int_equal(rlvc_planner_save(planner, store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), store), RLVC_OK);
     return planner;
 }
 
 /* Whichever call of the store fails, that is said, and a whole snapshot stays. */
 static void test_a_store_that_fails(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config(), found;
+    rlvc_config config = small_config();
+    rlvc_snapshot_info found;
     rlvc_store store;
     rlvc_planner *planner = saved(&config, &store), *other;
     first.calls = 0;
-    assert_int_equal(rlvc_planner_save(planner, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
     uint32_t calls = first.calls;
     for (uint32_t k = 1; k <= calls; k += k < 5 ? 1u : 97u) {
         first.calls = 0;
         first.fail_at = k;
-        assert_int_equal(rlvc_planner_save(planner, &store), RLVC_E_STORE);
+        assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_E_STORE);
         first.fail_at = 0;
         assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
         assert_same(planner, other);
@@ -273,7 +284,26 @@ static void test_a_store_that_fails(void **state) {
     }
     first.calls = 0;
     first.fail_at = 1;
-    assert_int_equal(rlvc_planner_snapshot_peek(&store, &found), RLVC_E_STORE);
+    assert_int_equal(rlvc_snapshot_peek(&store, &found), RLVC_E_STORE);
+}
+
+static rlvc_agent *saving;
+
+static int call_back(void *ctx, uint32_t offset, const void *buffer, uint32_t bytes) {
+    rlvc_store store = {ctx, SLOT_MOST, shelf_read, shelf_write, NULL, NULL};
+    assert_int_equal(rlvc_save(saving, &store), RLVC_E_REENTERED);
+    return shelf_write(ctx, offset, buffer, bytes);
+}
+
+static void test_a_store_that_calls_back(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_store store = empty_store(&first, &config);
+    rlvc_planner *other;
+    store.write = call_back;
+    saving = as_agent(make(&config, memory));
+    assert_int_equal(rlvc_save(saving, &store), RLVC_OK);
+    assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
 }
 
 static void mend(unsigned char *snapshot) {
@@ -286,7 +316,7 @@ static void mend(unsigned char *snapshot) {
 static void test_forged_bytes(void **state) {
     (void)state;
     static unsigned char whole[SLOT_MOST];
-    rlvc_planner_config config = small_config();
+    rlvc_config config = small_config();
     rlvc_store store;
     rlvc_planner *planner = saved(&config, &store), *other;
     uint32_t bytes = content_of(planner, whole), refused = 0, tried = 0;
@@ -321,9 +351,9 @@ static void refuse(void *field, const void *bad, size_t bytes) {
     unsigned char kept[8];
     memcpy(kept, field, bytes);
     memcpy(field, bad, bytes);
-    assert_false(rlvc_planner_check(checked));
+    assert_false(rlvc_planner_is_sound(checked));
     memcpy(field, kept, bytes);
-    assert_true(rlvc_planner_check(checked));
+    assert_true(rlvc_planner_is_sound(checked));
 }
 
 static void refuse_float(float *field, float bad) {
@@ -343,11 +373,11 @@ static void refuse_u32(uint32_t *field, uint32_t bad) {
 }
 
 static void prepare_check(void) {
-    static rlvc_planner_config config;
+    static rlvc_config config;
     rlvc_store store;
     config = small_config();
     checked = saved(&config, &store);
-    assert_true(rlvc_planner_check(checked));
+    assert_true(rlvc_planner_is_sound(checked));
 }
 
 static void test_rings_are_checked(void **state) {
@@ -355,6 +385,11 @@ static void test_rings_are_checked(void **state) {
     prepare_check();
     rlvc_experience *experience = &checked->experience;
     refuse_u8(experience->end + 5, RLVC_ROW_LAST + 1u);
+    const uint8_t end = experience->end[5];
+    assert_int_equal(rlvc_agent_check(as_agent(checked)), RLVC_OK);
+    experience->end[5] = RLVC_ROW_LAST + 1u;
+    assert_int_equal(rlvc_agent_check(as_agent(checked)), RLVC_E_MEMORY);
+    experience->end[5] = end;
     refuse_u8(experience->end + experience->head, RLVC_GOES_ON);
     refuse_u8(experience->action + 5, SLIDER_ACTIONS);
     refuse_float(experience->reward + 5, 2e12f);
@@ -373,7 +408,7 @@ static rlvc_model_tree *two_leaves(void) {
     tree->node[2].child = 1;
     tree->leaf[1] = tree->leaf[0];
     memset(rlvc_model_tree_coefficients(tree, 1), 0, tree->terms * sizeof(float));
-    assert_true(rlvc_planner_check(checked));
+    assert_true(rlvc_planner_is_sound(checked));
     return tree;
 }
 
@@ -430,7 +465,7 @@ static void test_policies_are_checked(void **state) {
     checked->next.why = RLVC_PLANNER_AGAIN;
     refuse_u32(&checked->next.trial, RLVC_ARCHIVE_POLICIES);
     checked->next.why = RLVC_PLANNER_RANDOM; /* may have a tree that was chosen before */
-    assert_true(rlvc_planner_check(checked));
+    assert_true(rlvc_planner_is_sound(checked));
 }
 
 /* A child of a test that comes before it, or is another test's. */
@@ -446,11 +481,11 @@ static void test_order_of_nodes(void **state) {
     tree->node[0].component = tree->node[2].component = 0;
     tree->node[0].child = 1;
     tree->node[2].child = 3;
-    assert_true(rlvc_planner_check(checked));
+    assert_true(rlvc_planner_is_sound(checked));
     tree->node[2].component = RLVC_SMALL_LEAF;
     tree->node[3].component = 0;
     tree->node[3].child = 3;
-    assert_false(rlvc_planner_check(checked));
+    assert_false(rlvc_planner_is_sound(checked));
 }
 
 static void test_counters_are_checked(void **state) {
@@ -472,9 +507,9 @@ static void test_counters_are_checked(void **state) {
     refuse_float(checked->start, 2e9f);
     refuse_float(checked->common, 2e9f);
     refuse_float(checked->now, 2e9f);
-    rlvc_planner_config config = checked->config;
+    rlvc_config config = checked->config;
     checked = make(&config, memory);
-    assert_true(rlvc_planner_check(checked));
+    assert_true(rlvc_planner_is_sound(checked));
     refuse_u8(&checked->open, 1);
     refuse_u8(&checked->due, 1);
     refuse_u32(&checked->experience.total, 1);
@@ -483,9 +518,9 @@ static void test_counters_are_checked(void **state) {
 /* Is what was written of a planner that does not hold together refused? */
 static void refuse_saved(void) {
     rlvc_planner *other;
-    rlvc_planner_config config = checked->config;
+    rlvc_config config = checked->config;
     rlvc_store store = empty_store(&first, &config);
-    assert_int_equal(rlvc_planner_save(checked, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(checked), &store), RLVC_OK);
     assert_int_equal(load_into(&config, &store, &other), RLVC_E_DAMAGED);
     prepare_check();
 }
@@ -533,7 +568,7 @@ static void test_any_order_of_endings(void **state) {
     (void)state;
     prepare_check();
     rlvc_ending *ending = &checked->model[1].ending;
-    rlvc_planner_config config = checked->config;
+    rlvc_config config = checked->config;
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *other;
     memset(ending, 0, sizeof *ending);
@@ -542,7 +577,7 @@ static void test_any_order_of_endings(void **state) {
     ending->node[0].component = ending->node[1].component = 0;
     ending->node[0].child = 1;
     ending->node[1].child = 3;
-    assert_int_equal(rlvc_planner_save(checked, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(checked), &store), RLVC_OK);
     assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
     ending->node[0].child = 3; /* both lead to the same two */
     ending->node[1].child = 2;
@@ -553,10 +588,10 @@ static void test_any_order_of_endings(void **state) {
 static void test_a_length_that_is_wrong(void **state) {
     (void)state;
     prepare_check();
-    rlvc_planner_config config = checked->config;
+    rlvc_config config = checked->config;
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *other;
-    assert_int_equal(rlvc_planner_save(checked, &store), RLVC_OK);
+    assert_int_equal(rlvc_save(as_agent(checked), &store), RLVC_OK);
     uint32_t bytes = (uint32_t)rlvc_get(first.byte + 12, 4);
     rlvc_put(first.byte + 12, bytes + RLVC_STORE_UNIT, 4);
     mend(first.byte);
@@ -565,18 +600,24 @@ static void test_a_length_that_is_wrong(void **state) {
 
 static void test_other_versions(void **state) {
     (void)state;
-    rlvc_planner_config config = small_config(), found;
+    rlvc_config config = small_config();
+    rlvc_snapshot_info found;
     rlvc_store store;
     rlvc_planner *other;
     (void)saved(&config, &store);
     rlvc_put(first.byte + 4, RLVC_SNAPSHOT_VERSION, 4);
     mend(first.byte);
     assert_int_equal(load_into(&config, &store, &other), RLVC_E_VERSION);
-    assert_int_equal(rlvc_planner_snapshot_peek(&store, &found), RLVC_E_VERSION);
-    rlvc_snapshot_info info;
+    rlvc_put(first.byte + 4, RLVC_PLANNER_SNAPSHOT_VERSION + 1u, 4);
+    mend(first.byte);
+    assert_int_equal(load_into(&config, &store, &other), RLVC_E_VERSION);
+    assert_int_equal(rlvc_snapshot_peek(&store, &found), RLVC_E_VERSION);
     rlvc_put(first.byte + 4, RLVC_PLANNER_SNAPSHOT_VERSION, 4);
     mend(first.byte);
-    assert_int_equal(rlvc_snapshot_peek(&store, &info), RLVC_E_VERSION);
+    assert_int_equal(rlvc_snapshot_peek(&store, &found), RLVC_OK);
+    config.method = &rlvc_method_classes;
+    assert_int_equal(load_into(&config, &store, &other), RLVC_E_VERSION);
+    config.method = &rlvc_method_planner;
     first.byte[200] ^= 1u;
     assert_int_equal(load_into(&config, &store, &other), RLVC_E_DAMAGED);
 }
@@ -590,6 +631,7 @@ int main(void) {
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_not_in_the_midst_of_learning),
         cmocka_unit_test(test_a_store_that_fails),
+        cmocka_unit_test(test_a_store_that_calls_back),
         cmocka_unit_test(test_forged_bytes),
         cmocka_unit_test(test_rings_are_checked),
         cmocka_unit_test(test_models_are_checked),

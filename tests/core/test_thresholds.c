@@ -344,6 +344,7 @@ static void learn(uint8_t oblique, uint32_t *classes, uint32_t *wrong) {
     thresholds.oblique = oblique;
     rlvc_thresholds_domain(&thresholds, &domain);
     rlvc_config_default(&config, &domain, 2);
+    config.method = &rlvc_method_classes;
     config.epsilon = 1.0f;
     assert_int_equal(rlvc_agent_init(&config, &domain, memory, sizeof memory, &agent), RLVC_OK);
     *wrong = 0;

@@ -38,6 +38,7 @@ static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t capacity, floa
     rlvc_config config;
     rlvc_agent *agent;
     must(rlvc_config_default(&config, domain, 4), "config");
+    config.method = &rlvc_method_classes;
     config.capacity = capacity;
     config.classes = 400;
     config.epsilon = epsilon;

@@ -21,6 +21,7 @@ static uint64_t memory[8192], policy_memory[8192];
 static rlvc_config config_of(const rlvc_domain *domain, uint32_t choice) {
     rlvc_config config;
     must(rlvc_config_default(&config, domain, 2) == RLVC_OK);
+    config.method = &rlvc_method_classes;
     config.capacity = CAPACITY;
     config.classes = 6;
     config.features_at_once = 16;

@@ -117,6 +117,7 @@ static void choose_domain(void) {
 static void choose_config(void) {
     static const float discounts[] = {0.9f, 0.0f, 0.5f, 1.0f}, rates[] = {1.0f, 0.01f, 1e-6f};
     must(rlvc_config_default(&config, &domain, 1u + next_below(4)) == RLVC_OK);
+    config.method = &rlvc_method_classes;
     config.capacity = 1u + next_below(60);
     config.classes = 1u + next_below(10);
     config.features_at_once = 1u + next_below(64);

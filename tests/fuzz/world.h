@@ -77,6 +77,7 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
         domain.percept_bytes = 1;
         domain.feature_bytes = 1;
         domain.exhibits = own_exhibits;
+        domain.method = &rlvc_method_classes;
         domain.candidates = own_candidates;
         domain.name = own_name;
     }

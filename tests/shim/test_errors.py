@@ -521,7 +521,7 @@ def test_ctrl_c_between_slices(walk, monkeypatch):
                 raise KeyboardInterrupt
         return original(name, *arguments)
 
-    monkeypatch.setattr("rlvc.agent.agent._SLICE", 64)
+    monkeypatch.setattr(rlvc.Agent, "_slice", 64)
     monkeypatch.setattr(agent, "_long", interrupted)
     with pytest.raises(KeyboardInterrupt):
         agent.learn()

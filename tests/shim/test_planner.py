@@ -8,6 +8,7 @@ import json
 import pickle
 import subprocess
 import zlib
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -19,9 +20,11 @@ import rlvc
 import rlvc.report
 from rlvc import __main__ as command
 from rlvc import _native, errors
+from rlvc.domains.callbacks import Guard
 from rlvc.learning.planning import default_config
 
 F32 = np.float32
+GOLDEN = Path(__file__).parents[1] / "golden"
 
 
 class Drift(gymnasium.Env):
@@ -185,6 +188,16 @@ def test_snapshots_that_are_refused(tmp_path):
         planner.snapshot()
 
 
+def test_a_file_of_the_first_version_is_read(tmp_path):
+    """What was saved before agents and planners had one interface."""
+    old, again = GOLDEN / "planner_1.rlvc", tmp_path / "planner"
+    planner = rlvc.Planner.load(old)
+    assert planner.statistics.interactions == 120
+    assert planner.predict(np.array([[0.48, 0], [0.5, 0]], F32)).tolist() == [0, 1]
+    planner.save(again, ("left", "right"))
+    assert rlvc.Planner.load(again).snapshot() == planner.snapshot()
+
+
 def planner_file(content):
     whole = b"rlvc planner 1\n" + content
     return whole + zlib.crc32(whole).to_bytes(4, "little")
@@ -259,8 +272,9 @@ def test_a_policy_outlives_its_planner():
 
 
 def test_the_defaults_are_those_of_c():
-    native = _native.PlannerConfig()
-    _native.call.rlvc_planner_default(ctypes.byref(native), 3, 5)
+    native, domain = _native.Config(), rlvc.Thresholds(3).native(Guard())
+    _native.call.rlvc_config_default(ctypes.byref(native), ctypes.byref(domain), 5)
+    assert native.method == _native.METHOD_PLANNER
     config = dataclasses.asdict(rlvc.PlannerConfig(5))
     assert {name: getattr(native, name) for name in config} == config
 

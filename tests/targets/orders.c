@@ -203,6 +203,7 @@ int main(int count, char **argument) {
         if (domain_of(which, &domain) != RLVC_OK ||
             rlvc_config_default(&config, &domain, 2) != RLVC_OK)
             return 1;
+        config.method = &rlvc_method_classes;
         config.capacity = 2u * INTERACTIONS;
         config.classes = 16;
         if (rlvc_snapshot_size(&config, &domain, &store.slot_bytes) != RLVC_OK ||

@@ -67,6 +67,7 @@ static rlvc_status learn(const rlvc_domain *domain, uint32_t numbers, uint32_t o
     rlvc_config config;
     rlvc_agent *agent;
     rlvc_status status = rlvc_config_default(&config, domain, ACTIONS);
+    config.method = &rlvc_method_classes;
     config.capacity = CAPACITY;
     config.classes = CLASSES;
     config.epsilon = 0.7f;

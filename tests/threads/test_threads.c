@@ -68,6 +68,7 @@ static void use_agent(task *t) {
     unsigned char percept[PERCEPT_MAX];
     uint32_t cell = 5, undone;
     must(rlvc_config_default(&config, domain, 2) == RLVC_OK);
+    config.method = &rlvc_method_classes;
     config.capacity = 200;
     config.classes = 16;
     must(rlvc_agent_init(&config, domain, t->memory, sizeof t->memory, &agent) == RLVC_OK);
@@ -91,34 +92,38 @@ static void use_agent(task *t) {
 }
 
 static void use_planner(task *t) {
-    rlvc_planner_config config;
-    rlvc_planner *planner;
+    rlvc_thresholds thresholds;
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *planner;
     rlvc_progress progress;
     rlvc_rng rng;
     slider world;
     uint32_t interactions = 0;
     rlvc_rng_seed(&rng, 1);
-    must(rlvc_planner_default(&config, SLIDER_COMPONENTS, SLIDER_ACTIONS) == RLVC_OK);
+    must(rlvc_thresholds_default(&thresholds, SLIDER_COMPONENTS) == RLVC_OK);
+    must(rlvc_thresholds_domain(&thresholds, &domain) == RLVC_OK);
+    must(rlvc_config_default(&config, &domain, SLIDER_ACTIONS) == RLVC_OK);
     config.sample = 300;
     config.random = 100;
     config.candidates = 20;
     config.model_leaves = 8;
-    must(rlvc_planner_init(&config, t->memory, sizeof t->memory, &planner) == RLVC_OK);
+    must(rlvc_agent_init(&config, &domain, t->memory, sizeof t->memory, &planner) == RLVC_OK);
     while (interactions < 300u) {
         uint8_t end;
         slider_reset(&world, &rng);
-        must(rlvc_planner_begin(planner, world.s) == RLVC_OK);
+        must(rlvc_begin(planner, world.s) == RLVC_OK);
         do {
-            uint32_t action;
+            rlvc_choice choice;
             float reward;
-            must(rlvc_planner_act(planner, &action) == RLVC_OK);
-            end = slider_step(&world, action, &reward);
-            must(rlvc_planner_observe(planner, action, reward, world.s, end) == RLVC_OK);
+            must(rlvc_act(planner, &choice) == RLVC_OK);
+            end = slider_step(&world, choice.action, &reward);
+            must(rlvc_observe(planner, choice, reward, world.s, end) == RLVC_OK);
             t->crc = rlvc_crc(t->crc, world.s, sizeof world.s);
             interactions++;
         } while (end == RLVC_GOES_ON);
         do {
-            must(rlvc_planner_learn(planner, 5000, &progress) == RLVC_OK);
+            must(rlvc_learn(planner, 5000, &progress) == RLVC_OK);
         } while (!progress.done);
     }
 }

@@ -20,14 +20,14 @@ Measured = collections.namedtuple("Measured", "library sizes")  # an object file
 # What a program needs that does not print, save or load.
 PROFILES = {
     "policy": Profile("RLVC_PLANNER_POLICY_BYTES", (
-        "rlvc_thresholds_default", "rlvc_thresholds_domain", "rlvc_planner_policy_of", "rlvc_policy_act")),
+        "rlvc_thresholds_default", "rlvc_thresholds_policy_domain", "rlvc_planner_policy_of", "rlvc_policy_act")),
     "learner on bits": Profile("RLVC_AGENT_BYTES(2, 200, 10, 1, RLVC_BITS_FEATURE_BYTES, 3)", (
         "rlvc_bits_domain", "rlvc_config_default", "rlvc_agent_size", "rlvc_agent_init", "rlvc_begin", "rlvc_act",
         "rlvc_observe", "rlvc_learn", "rlvc_predict", "rlvc_stats", "rlvc_q", "rlvc_value", "rlvc_split_at")),
     "learner on numbers": Profile("RLVC_PLANNER_BYTES(2, 2, 200, 200, 4)", (
-        "rlvc_planner_default", "rlvc_planner_size", "rlvc_planner_init", "rlvc_planner_begin", "rlvc_planner_act",
-        "rlvc_planner_observe", "rlvc_planner_learn", "rlvc_planner_budget_min", "rlvc_planner_predict",
-        "rlvc_planner_node", "rlvc_planner_stats")),
+        "rlvc_thresholds_default", "rlvc_thresholds_domain", "rlvc_config_default", "rlvc_agent_size", "rlvc_agent_init",
+        "rlvc_begin", "rlvc_act", "rlvc_observe", "rlvc_learn", "rlvc_budget_min", "rlvc_predict", "rlvc_planner_node",
+        "rlvc_planner_stats")),
 }
 EMPTY = "int main(void) { return 0; }\n"
 BLOCK = """#include <rlvc/rlvc.h>

@@ -29,8 +29,9 @@ EXAMPLES = {  # name: heading, target, memory at most and stack set aside, a def
     "balance": ("Learning to balance a pole", "M4F", 128 * 1024, 8192, "BALANCE_SHORT=0",
                 ("main", "cart_pole", "controller", "report")),
 }
-LEAN = ("-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2", "-DRLVC_DOMAINS=2", "-DRLVC_ORACLES=1",
-        "-DRLVC_DEPENDENCES=1", "-DRLVC_EFFECTS=1", "-DRLVC_DISCOUNTS=1")  # what a controller uses, one of each
+LEAN = ("-DRLVC_METHODS=1", "-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2", "-DRLVC_DOMAINS=2",
+        "-DRLVC_ORACLES=1", "-DRLVC_DEPENDENCES=1", "-DRLVC_EFFECTS=1",
+        "-DRLVC_DISCOUNTS=1")  # what a controller uses, one of each
 HELPER_STACK = 64      # granted to a function of the compiler's own library
 STACK_TARGETS = ("M0", "M3", "M4F", "rv32imac")
 
@@ -176,6 +177,9 @@ and the linker drops what is not called.
 - **learner on bits** (`rlvc/agent.h`): 3 bits, 2 actions, 200 interactions, 10 classes.
 - **learner on numbers** (`rlvc/planner.h`): 2 components, 2 actions, 200 interactions, 4 leaves of a model.
 
+A learner carries its method whole, with what saves and loads it (core/src/base/method.h), and not the other one;
+where one method alone is built in, what is not called is left out of it too (below).
+
 More interactions and classes need more RAM and no more flash. Constants lie in RAM, too, on the AVR (an
 ATmega1284P, whose 16 KiB are too few for the learner on numbers) and in WebAssembly. On the M4F the learner on
 numbers may take {PLANNER_FLASH_MAX:,} of flash. The check measures a machine only if its compiler is installed
@@ -185,7 +189,7 @@ and is the one of its row; else it names the machine and passes over it.
     yield f"""
 ## A lean learner
 
-Built with one solver, value iteration, one score, the information gain, and one criterion, the residual
+Built with one method, classes, one solver, value iteration, one score, the information gain, and one criterion, the residual
 (`{' '.join(LEAN)}`,
 core/src/base/solver_select.h), the library takes {lean:,} of the flash of a program that learns by bits on the
 M3, and may take {FLASH_MAX:,}. Its modules, before the linker leaves out what is not called:

@@ -26,6 +26,9 @@ FLAGS = ["-std=c99", "-ffp-contract=off", "-mno-red-zone", "-fno-stack-protector
 EXTERNAL = {"memcpy": 64, "memmove": 64, "memset": 64, "memcmp": 64, "strlen": 64}
 # The pointers that the core may call through: the domain's callbacks, and those of the caller's files.
 INDIRECT = re.compile(r"\b(exhibits|candidates|detect|oracle|name|check_percept|check_feature|read|write|erase|sync)\s*\(")
+# A call through the table of a method (base/method.h): it goes to that function of each method.
+THROUGH_METHOD = re.compile(r"\bmethod(?:_of\(\w+\))?->(\w+)\(")
+METHODS = ("rlvc_classes_", "rlvc_planner_")
 PLACEHOLDER = "__indirect_call"
 
 Function = collections.namedtuple("Function", "name place bytes kind")
@@ -62,7 +65,10 @@ class Graph:
                 r'^edge: \{ sourcename: "(.*?)" targetname: "(.*?)"(?: label: "(.*?)")?', text,
                 re.MULTILINE):
             caller, callee, place = match.groups()
-            if callee == PLACEHOLDER:
+            through = THROUGH_METHOD.search(source_line(place)) if callee == PLACEHOLDER else None
+            if through:
+                self.calls[caller] |= {prefix + through[1] for prefix in METHODS}
+            elif callee == PLACEHOLDER:
                 self.indirect[caller].add(place)
             else:
                 self.calls[caller].add(callee)

@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* The agent: reinforcement learning of classes (section 4.2.1) in one block of the caller's memory.
+/* The agent: learns to act from rewards, in one block of the caller's memory.
  *
  *     rlvc_config_default, rlvc_agent_size, rlvc_agent_init      once
  *     rlvc_begin                                                 at the start of an episode
  *     rlvc_act, rlvc_observe                                     at each interaction
  *     rlvc_learn                                                 now and then, in slices if need be
  *     rlvc_predict, rlvc_print, ...                              at any time
+ *
+ * It learns by one of two methods, config.method, and these calls serve both: reinforcement
+ * learning of classes (section 4.2.1), which is described here, and small trees in a learnt model
+ * of the world, which rlvc/planner.h describes and thresholds learn by unless they are told not to.
+ * A function that is of classes alone returns RLVC_E_MISMATCH for an agent of the other method.
  *
  * An agent is used by one thread at a time; distinct agents are independent. Every function here
  * returns RLVC_E_NULL for a null pointer that is not marked optional, and RLVC_E_REENTERED when a
@@ -61,14 +66,19 @@ typedef struct rlvc_agent rlvc_agent;
  * class and for the previous action (SPEC.md). */
 #define RLVC_EXPLORE_DIRECTED 1u
 
-/* Options of an agent, copied by rlvc_agent_init. Start from rlvc_config_default. */
+/* Options of an agent, copied by rlvc_agent_init. Start from rlvc_config_default. A method looks
+ * at no field that is of the other one. */
 typedef struct rlvc_config {
-    /* Number of actions, [1, 255]. No default. */
+    /* How is learnt, &rlvc_method_classes or &rlvc_method_planner. Default as the domain says. */
+    const rlvc_method *method;
+
+    /* Number of actions, [1, 255]; of the planner [2, 64]. No default. */
     uint32_t actions;
 
     /* Interactions that the ring holds, [1, 2^31 - 1]. When it is full, the oldest one is dropped.
      * Between two episodes it may hold one more; a truncated or interrupted episode takes the room
-     * of one more. Default 2000. */
+     * of one more. Of the planner: the percepts that it holds, [64, 10^8]; an episode of n
+     * interactions has n + 1. Default 2000. */
     uint32_t capacity;
 
     /* Classes that the tree may grow to, [1, 65535]. Default 64. */
@@ -86,7 +96,7 @@ typedef struct rlvc_config {
      * 10,000. */
     uint32_t max_sweeps;
 
-    /* Seed of the exploration, any value. Default 1. */
+    /* Seed of all random numbers, any value. Default 1. */
     uint32_t seed;
 
     uint8_t criterion; /* RLVC_CRITERION_*. Default RLVC_CRITERION_RESIDUAL */
@@ -151,10 +161,24 @@ typedef struct rlvc_config {
      * differ by less, after each action: by three standard errors. Splits by what follows
      * (successors) are made all the same. 0: any difference is worth a split. Default 0. */
     float smallest_effect;
+
+    /* Of the planner: */
+    uint32_t sample;       /* interactions that a model is fitted to at most, drawn from the ring,
+                              [32, capacity]. Default 2000 */
+    uint32_t model_leaves; /* of each tree of the model, [1, RLVC_PLANNER_MODEL_LEAVES_MAX]. Default
+                              32 */
+    uint32_t leaves;       /* of the policy at most, [2, RLVC_PLANNER_LEAVES_MAX]. Default 16 */
+    uint32_t horizon; /* interactions after which an episode counts as one, although it goes on,
+                         [1, RLVC_PLANNER_CAPACITY_MAX]. Default 500 */
+    uint32_t random;  /* interactions at random before the first model, and then to the end of the
+                         episode, [32, capacity / 2]. Default 200 */
+    uint32_t candidates; /* trees that a search looks at, in no more than 2,500 steps of the model
+                            for each, [1, RLVC_PLANNER_CANDIDATES_MAX]. Default 1000 */
+    uint32_t patience;   /* trees without gain after which it ends, likewise. Default 300 */
 } rlvc_config;
 
 /* Fills *config with the defaults for a domain and a number of actions. The domain is only looked
- * at for features_max; nothing is checked. O(1).
+ * at for features_max and its method; nothing is checked. O(1).
  * @return RLVC_OK. */
 RLVC_API rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain,
                                          uint32_t actions);
@@ -173,7 +197,7 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
                                      size_t *bytes);
 
 /* An upper bound of rlvc_agent_size as a constant expression, for static arrays; at most
- * RLVC_AGENT_FIXED_BYTES above it. */
+ * RLVC_AGENT_FIXED_BYTES above it. Of classes: of a planner it is RLVC_PLANNER_BYTES. */
 #ifdef RLVC_RED_ZONES
 #define RLVC_AGENT_FIXED_BYTES 4096u /* builds for tests keep the arrays apart */
 #else
@@ -222,7 +246,8 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
 
 /* Makes a new agent in the caller's block: one class that holds every percept, no interaction, step
  * k = 0. The config and the domain are copied; the block belongs to the agent until the caller
- * takes it back (there is nothing to free). It must not be moved. O(classes * actions).
+ * takes it back (there is nothing to free). It must not be moved. O(classes * actions); of a
+ * planner O(bytes).
  * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_agent_size or more
  * @return RLVC_OK; RLVC_E_CONFIG; RLVC_E_MEMORY: the block is untouched and *agent is null. */
 RLVC_API rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain,
@@ -243,21 +268,25 @@ typedef struct rlvc_choice {
 
 /* Starts an episode at a percept, which is copied. If one was under way, it is
  * interrupted here, as if its last interaction had been truncated. O(percept_bytes), and a call of
- * check_percept().
- * @return RLVC_OK; RLVC_E_BUSY; RLVC_E_PERCEPT: the domain refuses the percept. */
+ * check_percept(). The return of an episode that a planner was interrupted in does not count.
+ * @return RLVC_OK; RLVC_E_BUSY: finish the learning step; RLVC_E_PERCEPT: the domain refuses the
+ *         percept. */
 RLVC_API rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept);
 
 /* Chooses an action for the current percept: epsilon-greedy, in runs. With probability 1 - epsilon
  * a run of k + 1 greedy actions begins (of one under the residual criterion), as section 4.2.1
  * asks; otherwise one action explores, as config.explore says. Each call is a new decision, and is
  * counted by directed exploration. O(actions), and O(depth of the tree) calls of exhibits().
+ * A planner acts by one tree for a whole episode: it explores while that is random, or sought for
+ * what is new.
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_CALLBACK. */
 RLVC_API rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice);
 
 /* Stores the interaction <s, a, r, s', e> whose s is the current percept. The choice need not come
  * from rlvc_act. O(percept_bytes), and a call of check_percept(); with an incremental solver also
  * O(depth) calls of exhibits().
- * @param next s', copied; optional (not looked at) if `end` is RLVC_TERMINATED
+ * @param next s', copied; optional (not looked at) if `end` is RLVC_TERMINATED, but of a planner
+ *             required, since the model learns what an end looks like
  * @param end  RLVC_GOES_ON, or RLVC_TERMINATED or RLVC_TRUNCATED: then call rlvc_begin next
  * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_RANGE: action, exploited or end;
  *         RLVC_E_REWARD; RLVC_E_BUSY; RLVC_E_CALLBACK; RLVC_E_PERCEPT: the domain refuses s'. */
@@ -277,6 +306,10 @@ typedef struct rlvc_progress {
     uint8_t reserved[3];
 } rlvc_progress;
 
+/* The least budget of rlvc_learn: what cannot be cut. Of classes RLVC_BUDGET_MIN. O(1).
+ * @return RLVC_OK. */
+RLVC_API rlvc_status rlvc_budget_min(const rlvc_agent *agent, uint32_t *budget);
+
 /* One step of section 4.2.1 (parts 3a to 3c) on the interactions stored when it begins: refines
  * every aliased class until none is left, then solves for the values and increments k. Call it
  * until progress->done. The result does not depend on the budgets. Interactions observed in between
@@ -287,7 +320,9 @@ typedef struct rlvc_progress {
  * RLVC_BUDGET_UNBOUNDED does the whole step. A step without any new interaction would find
  * nothing, and takes O(classes). A full tree is not an error: rlvc_stats counts
  * the refused splits.
- * @param budget [RLVC_BUDGET_MIN, UINT32_MAX]
+ *
+ * A planner's step is another one: rlvc/planner.h.
+ * @param budget [RLVC_BUDGET_MIN, UINT32_MAX]; of a planner from rlvc_budget_min on
  * @return RLVC_OK; RLVC_E_RANGE: budget; RLVC_E_CALLBACK: work done before
  *         the failure is kept, as if the budget had ended there. The next call retries that
  *         callback. *progress is filled in. */
@@ -298,7 +333,7 @@ RLVC_API rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progres
  * failing. Splits and values made so far are kept; k is not incremented. rlvc_begin and
  * rlvc_observe do the same, instead of returning RLVC_E_BUSY, if the last rlvc_learn failed: so the
  * percept that made it fail can leave the ring. O(capacity + classes).
- * @return RLVC_OK, also if no step is under way. */
+ * @return RLVC_OK, also if no step is under way; RLVC_E_MISMATCH: a planner's steps never fail. */
 RLVC_API rlvc_status rlvc_learn_abandon(rlvc_agent *agent);
 
 /* Takes tests out of the tree that the stored interactions do not support (section 7): from the
@@ -316,7 +351,7 @@ RLVC_API rlvc_status rlvc_learn_abandon(rlvc_agent *agent);
  * @param tolerance  in units of return, [0, RLVC_REWARD_MAX]
  * @param deviations [0, 1000]; 0: only the tolerance counts
  * @param undone     how many splits were undone
- * @return RLVC_OK; RLVC_E_RANGE; RLVC_E_BUSY: a learning step is under way. */
+ * @return RLVC_OK; RLVC_E_RANGE; RLVC_E_BUSY: a learning step is under way; RLVC_E_MISMATCH. */
 RLVC_API rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations,
                                 uint32_t *undone);
 
@@ -324,9 +359,11 @@ RLVC_API rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviat
 
 /* The class of a percept and its greedy action: the learnt policy. Changes nothing. While a
  * learning step is under way, the actions are those of the last solution. O(depth) calls of
- * exhibits().
+ * exhibits(). Of a planner the class is a leaf of the tree that rlvc_print prints, and the action 0
+ * while there is none.
  * @param class_id, action each optional
- * @return RLVC_OK; RLVC_E_CALLBACK: *class_id and *action unchanged. */
+ * @return RLVC_OK; RLVC_E_CALLBACK, RLVC_E_PERCEPT (of a planner): *class_id and *action
+ *         unchanged. */
 RLVC_API rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
                                   uint32_t *action);
 
@@ -342,6 +379,8 @@ RLVC_API rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32
 
 #define RLVC_RESIDUAL_ENDLESS 1e30f
 
+/* Of a planner those from last_split on are 0, and classes are the leaves of the learnt policy;
+ * rlvc/planner.h has more. */
 typedef struct rlvc_statistics {
     uint64_t interactions; /* observed since init */
     uint32_t stored;       /* of these, still in the ring */
@@ -357,19 +396,19 @@ typedef struct rlvc_statistics {
     uint32_t reserved;     /* 0 */
 } rlvc_statistics;
 
-/* @return RLVC_OK. O(splits). */
+/* @return RLVC_OK. O(splits); of a planner O(capacity). */
 RLVC_API rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics);
 
 /* Q(class, action) of the last solution, and how many interactions it rests on (0: untried, and q
  * is 0). O(1).
  * @param q, samples each optional
- * @return RLVC_OK; RLVC_E_RANGE: class_id or action. */
+ * @return RLVC_OK; RLVC_E_RANGE: class_id or action; RLVC_E_MISMATCH. */
 RLVC_API rlvc_status rlvc_q(const rlvc_agent *agent, uint32_t class_id, uint32_t action, float *q,
                             uint32_t *samples);
 
 /* V(class) and the greedy action of the last solution. O(1).
  * @param value, action each optional
- * @return RLVC_OK; RLVC_E_RANGE: class_id. */
+ * @return RLVC_OK; RLVC_E_RANGE: class_id; RLVC_E_MISMATCH. */
 RLVC_API rlvc_status rlvc_value(const rlvc_agent *agent, uint32_t class_id, float *value,
                                 uint32_t *action);
 
@@ -397,7 +436,7 @@ typedef struct rlvc_split {
 } rlvc_split;
 
 /* @param split, feature each optional; feature gets feature_bytes
- * @return RLVC_OK; RLVC_E_RANGE: index is not below classes - 1. O(1). */
+ * @return RLVC_OK; RLVC_E_RANGE: index is not below classes - 1; RLVC_E_MISMATCH. O(1). */
 RLVC_API rlvc_status rlvc_split_at(const rlvc_agent *agent, uint32_t index, rlvc_split *split,
                                    void *feature);
 
@@ -408,7 +447,8 @@ typedef int (*rlvc_write)(void *ctx, const char *text, size_t bytes);
 #define RLVC_PRINT_DOT 1u  /* a Graphviz digraph */
 #define RLVC_PRINT_JSON 2u /* one object; SPEC.md gives its form */
 
-/* Prints the tree with the action, value and numbers of each class. O(nodes * depth).
+/* Prints the tree with the action, value and numbers of each class; of a planner as
+ * rlvc_policy_print does. O(nodes * depth).
  * @return RLVC_OK; RLVC_E_RANGE: format; RLVC_E_CALLBACK: a write, or the domain's name(), failed;
  * the text ends where it did. */
 RLVC_API rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx);
@@ -416,7 +456,7 @@ RLVC_API rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write w
 /* Checks every invariant of the agent's memory (SPEC.md lists them). For tests and for debugging.
  * O(capacity + classes * actions), and a call of the domain's checks for each percept in the ring
  * and each feature of the tree.
- * @return RLVC_OK; RLVC_E_MEMORY: damaged. */
+ * @return RLVC_OK; RLVC_E_MEMORY: damaged; RLVC_E_BUSY: a planner is learning. */
 RLVC_API rlvc_status rlvc_agent_check(rlvc_agent *agent);
 
 #ifdef __cplusplus

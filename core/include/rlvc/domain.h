@@ -49,6 +49,12 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DOMAIN_THRESHOLDS 3u
 #define RLVC_DOMAIN_SPATIAL 4u
 
+/* How an agent learns: see rlvc/agent.h and rlvc/planner.h. A program links a method if it names
+ * it, or calls a domain's constructor that does. */
+typedef struct rlvc_method rlvc_method;
+extern RLVC_API const rlvc_method rlvc_method_classes; /* classes of percepts */
+extern RLVC_API const rlvc_method rlvc_method_planner; /* small trees in a learnt model */
+
 typedef struct rlvc_domain {
     void *ctx; /* passed to every callback */
 
@@ -107,6 +113,10 @@ typedef struct rlvc_domain {
     uint32_t percept_words;
     uint32_t feature_words;
     uint32_t feature_halves;
+
+    /* How is learnt where the config does not say otherwise: of your own domains set
+     * &rlvc_method_classes. Only rlvc_config_default looks at it. */
+    const rlvc_method *method;
 } rlvc_domain;
 
 #define RLVC_NAME_BYTES 64u /* the room that name() gets */

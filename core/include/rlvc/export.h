@@ -38,10 +38,11 @@ typedef struct rlvc_export_info {
  * Of thresholds: tables of nodes and cutpoints, and of slopes if any test is oblique. A percept is
  * the domain's record. The same holds of it bit for bit.
  *
- * While a learning step is under way the policy is that of the last solution. O(nodes^2) at worst,
- * nearer to O(nodes * depth), for bits and thresholds; for the table of actions O(2^bits * depth)
- * more, with 2^bits at most 16 a leaf. For descriptors O(nodes^2) comparisons of features, and as
- * many again for each node whose feature an earlier one has.
+ * While a learning step is under way the policy is that of the last solution; of a planner it is
+ * the learnt policy. O(nodes^2) at worst, nearer to O(nodes * depth), for bits and thresholds; for
+ * the table of actions O(2^bits * depth) more, with 2^bits at most 16 a leaf. For descriptors
+ * O(nodes^2) comparisons of features, and as many again for each node whose feature an earlier one
+ * has.
  * @param name a C identifier of at most 48 characters: begins everything that the header defines
  * @param info optional
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_REENTERED; RLVC_E_RANGE: name; RLVC_E_CONFIG: the domain is

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The planner: learns a small tree on real numbers, by searching in a learnt model of the world.
- *
- *     rlvc_planner_default, rlvc_planner_size, rlvc_planner_init   once
- *     rlvc_planner_begin                                           at the start of an episode
- *     rlvc_planner_act, rlvc_planner_observe                       at each interaction
- *     rlvc_planner_learn                                           after each episode, or in slices
- *     rlvc_planner_predict, rlvc_planner_node, rlvc_planner_stats  at any time
- *     rlvc_planner_save, rlvc_planner_load                         between two steps of learning
+/* The planner: the method that learns a small tree on real numbers, by searching in a learnt model
+ * of the world. Thresholds learn by it unless config.method says otherwise, and its agents are used
+ * as all are (rlvc/agent.h); here is what is the planner's own.
  *
  * For robots, whose sensors give angles, speeds and distances, classes of percepts are a weak
  * guide. The planner fits a model of what each action changes to some hundred interactions,
@@ -15,9 +10,18 @@
  * discount: it maximises the sum of the rewards of an episode, or of `horizon` interactions where
  * episodes are longer or never end.
  *
- * It lives in one block of the caller's memory, and is used by one thread at a time. Every function
- * here returns RLVC_E_NULL for a null pointer; that is not repeated below. On error nothing
- * changes. */
+ * A step of rlvc_learn, if an episode ended since the last: fits the model if the data have grown
+ * by a tenth, searches, and chooses the policy of the next episode. What it makes does not depend
+ * on the budgets. Until it is done the best policy so far acts; interactions observed in between
+ * wait for the next step, but that the search draws cutpoints from them. The unit of work is a
+ * multiplication of floats, about.
+ *
+ * The learnt policy, which rlvc_predict follows and which is printed, exported and made a policy by
+ * itself, is of the trees that were tried the one of the highest score, less half a standard error
+ * and 0.2 % of the score for each leaf; action 0 while there is none.
+ *
+ * A percept is [components] numbers, each finite and within +-RLVC_PLANNER_NUMBER_MAX, else it is
+ * refused with RLVC_E_PERCEPT. */
 #ifndef RLVC_PLANNER_H
 #define RLVC_PLANNER_H
 
@@ -28,9 +32,7 @@
 extern "C" {
 #endif
 
-typedef struct rlvc_planner rlvc_planner;
-
-#define RLVC_PLANNER_COMPONENTS_MAX 64u
+#define RLVC_PLANNER_COMPONENTS_MAX 64u /* of the domain of thresholds */
 #define RLVC_PLANNER_ACTIONS_MAX 64u
 #define RLVC_PLANNER_CAPACITY_MAX 100000000u
 #define RLVC_PLANNER_MODEL_LEAVES_MAX 256u
@@ -38,37 +40,7 @@ typedef struct rlvc_planner rlvc_planner;
 #define RLVC_PLANNER_CANDIDATES_MAX 1000000u
 #define RLVC_PLANNER_NUMBER_MAX 1e9f
 
-/* Chosen once, copied by rlvc_planner_init. Start from rlvc_planner_default. */
-typedef struct rlvc_planner_config {
-    uint32_t components; /* numbers of a percept, [1, RLVC_PLANNER_COMPONENTS_MAX]; no default */
-    uint32_t actions;    /* [2, RLVC_PLANNER_ACTIONS_MAX]; no default */
-    uint32_t capacity; /* percepts the ring holds, [64, RLVC_PLANNER_CAPACITY_MAX]; an episode of n
-                          interactions has n + 1. When it is full the oldest leave. Default 2000 */
-    uint32_t sample;   /* interactions that a model is fitted to at most, drawn from the ring,
-                          [32, capacity]. Default 2000 */
-    uint32_t model_leaves; /* of each tree of the model, [1, RLVC_PLANNER_MODEL_LEAVES_MAX]. Default
-                              32 */
-    uint32_t leaves;       /* of the policy at most, [2, RLVC_PLANNER_LEAVES_MAX]. Default 16 */
-    uint32_t horizon; /* interactions after which an episode counts as one, although it goes on,
-                         [1, RLVC_PLANNER_CAPACITY_MAX]. Default 500 */
-    uint32_t random;  /* interactions at random before the first model, and then to the end of the
-                         episode, [32, capacity / 2]. Default 200 */
-    uint32_t candidates; /* trees that a search looks at, in no more than 2,500 steps of the model
-                            for each, [1, RLVC_PLANNER_CANDIDATES_MAX]. Default 1000 */
-    uint32_t patience;   /* trees without gain after which it ends, likewise. Default 300 */
-    uint32_t seed;       /* any value. Default 1 */
-} rlvc_planner_config;
-
-/* Fills *config with the defaults. Nothing is checked. O(1).
- * @return RLVC_OK. */
-RLVC_API rlvc_status rlvc_planner_default(rlvc_planner_config *config, uint32_t components,
-                                          uint32_t actions);
-
-/* The exact size of a planner's block on this target. O(1).
- * @return RLVC_OK; RLVC_E_CONFIG: a field is out of range, and *bytes is 0. */
-RLVC_API rlvc_status rlvc_planner_size(const rlvc_planner_config *config, size_t *bytes);
-
-/* At least the size of a planner's block, for static arrays; each argument is looked at more than
+/* At least rlvc_agent_size of a planner, for static arrays; each argument is looked at more than
  * once. */
 #define RLVC_PLANNER_BYTES(components, actions, capacity, sample, model_leaves)                    \
     (8192u + (size_t)(capacity) * (4u * (components) + 6u) + 4u * (size_t)(sample) +               \
@@ -87,66 +59,11 @@ RLVC_API rlvc_status rlvc_planner_size(const rlvc_planner_config *config, size_t
          ? (components) + (actions) + (components) * ((components) + 1u) / 2u                      \
          : (components) + (actions))
 
-/* Makes a new planner in the caller's block, which must not be moved. O(bytes).
- * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, rlvc_planner_size or more
- * @return RLVC_OK; RLVC_E_CONFIG; RLVC_E_MEMORY: the block is untouched. On error *planner is null.
- */
-RLVC_API rlvc_status rlvc_planner_init(const rlvc_planner_config *config, void *memory,
-                                       size_t bytes, rlvc_planner **planner);
-
-/* Starts an episode at a percept, which is copied. One that was under way is cut off, and its
- * return does not count. O(components).
- * @param percept [components] finite, within +-RLVC_PLANNER_NUMBER_MAX
- * @return RLVC_OK; RLVC_E_RANGE: the percept; RLVC_E_BUSY: the ring is full of what a model is
- * being fitted to: go on with rlvc_planner_learn. */
-RLVC_API rlvc_status rlvc_planner_begin(rlvc_planner *planner, const float *percept);
-
-/* The action at the current percept, by the policy that acts in this episode. O(depth).
- * @return RLVC_OK; RLVC_E_ORDER: no current percept. */
-RLVC_API rlvc_status rlvc_planner_act(rlvc_planner *planner, uint32_t *action);
-
 /* The action at any percept, by the policy that acts in the next episode: for episodes in several
- * worlds at once, each of which is observed when it has ended, by rlvc_planner_begin and
- * rlvc_planner_observe, before the next step of learning. O(depth).
- * @return RLVC_OK; RLVC_E_RANGE: the percept. */
-RLVC_API rlvc_status rlvc_planner_act_at(rlvc_planner *planner, const float *percept,
-                                         uint32_t *action);
-
-/* Stores what came of an action at the current percept. O(components), and O(components^2) in an
- * episode that explores.
- * @param next [components] s', copied; also where the episode is terminated
- * @param end  RLVC_GOES_ON, or RLVC_TERMINATED or RLVC_TRUNCATED: then call rlvc_planner_begin next
- * @return RLVC_OK; RLVC_E_ORDER: no current percept; RLVC_E_RANGE: action, next or end;
- * RLVC_E_REWARD; RLVC_E_BUSY: as of rlvc_planner_begin. */
-RLVC_API rlvc_status rlvc_planner_observe(rlvc_planner *planner, uint32_t action, float reward,
-                                          const float *next, uint8_t end);
-
-/* One step of learning, if an episode ended since the last: fits the model if the data have grown
- * by a tenth, searches, and chooses the policy of the next episode. What it makes does not depend
- * on the budgets. Until it is done the best policy so far acts; interactions observed in between
- * wait for the next step, but that the search draws cutpoints from them.
- *
- * The unit of work is a multiplication of floats, about.
- * @param budget [rlvc_planner_budget_min, UINT32_MAX]
- * @return RLVC_OK, and progress->work is at most the budget; RLVC_E_RANGE: budget. */
-RLVC_API rlvc_status rlvc_planner_learn(rlvc_planner *planner, uint32_t budget,
-                                        rlvc_progress *progress);
-
-/* The least budget: what cannot be cut. O(1).
- * @return RLVC_OK. */
-RLVC_API rlvc_status rlvc_planner_budget_min(const rlvc_planner *planner, uint32_t *budget);
-
-/* The action of the learnt policy: of the trees that were tried the one of the highest score, less
- * half a standard error and 0.2 % of the score for each leaf; action 0 while there is none.
- * O(depth).
- * @return RLVC_OK; RLVC_E_RANGE: the percept. */
-RLVC_API rlvc_status rlvc_planner_predict(const rlvc_planner *planner, const float *percept,
-                                          uint32_t *action);
-
-/* The config, as it was copied. O(1).
- * @return RLVC_OK. */
-RLVC_API rlvc_status rlvc_planner_config_of(const rlvc_planner *planner,
-                                            rlvc_planner_config *config);
+ * worlds at once, each of which is observed when it has ended, by rlvc_begin and rlvc_observe,
+ * before the next step of learning. O(depth).
+ * @return RLVC_OK; RLVC_E_PERCEPT; RLVC_E_MISMATCH: the agent is of classes. */
+RLVC_API rlvc_status rlvc_planner_act_at(rlvc_agent *agent, const float *percept, uint32_t *action);
 
 #define RLVC_PLANNER_LEAF 0xffffu
 
@@ -160,28 +77,21 @@ typedef struct rlvc_planner_test {
 } rlvc_planner_test;
 
 /* @param index [0, 2 * leaves - 1)
- * @return RLVC_OK; RLVC_E_RANGE: index. O(1). */
-RLVC_API rlvc_status rlvc_planner_node(const rlvc_planner *planner, uint32_t index,
+ * @return RLVC_OK; RLVC_E_RANGE: index; RLVC_E_MISMATCH: the agent is of classes. O(1). */
+RLVC_API rlvc_status rlvc_planner_node(const rlvc_agent *agent, uint32_t index,
                                        rlvc_planner_test *node);
 
 /* Enough for a policy, also where tests keep arrays apart. */
 #define RLVC_PLANNER_POLICY_BYTES 2048u
 
-/* Makes a policy of what was learnt, to be printed, exported as C, and deployed without the planner
- * (see rlvc/policy.h). It is independent of the planner from then on. O(leaves^2).
- * @param thresholds a domain of rlvc_thresholds_domain for as many components; copied, its ctx must
- * stay
- * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, RLVC_PLANNER_POLICY_BYTES or more
- * @return RLVC_OK; RLVC_E_MISMATCH: another domain, or other components; RLVC_E_MEMORY. On error
- *         *policy is null. */
-RLVC_API rlvc_status rlvc_planner_policy(const rlvc_planner *planner, const rlvc_domain *thresholds,
-                                         void *memory, size_t bytes, rlvc_policy **policy);
-
 /* Makes a policy of nodes that rlvc_planner_node gave: kept in a file, or as constants of a
- * controller that does not learn. As rlvc_planner_policy does. O(leaves^2).
+ * controller that does not learn. O(leaves^2).
  * @param node [count] a tree as rlvc_planner_node gives it: a child comes after its parent
  * @param count [1, 2 * RLVC_PLANNER_LEAVES_MAX - 1], odd
  * @param actions [1, RLVC_PLANNER_ACTIONS_MAX]
+ * @param thresholds of rlvc_thresholds_policy_domain or rlvc_thresholds_domain; copied, its ctx
+ * must stay
+ * @param memory aligned to RLVC_ALIGNMENT; `bytes` of it, RLVC_PLANNER_POLICY_BYTES or more
  * @return RLVC_OK; RLVC_E_MISMATCH: another domain; RLVC_E_RANGE: count, actions or a node;
  * RLVC_E_MEMORY. On error *policy is null. */
 RLVC_API rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint32_t count,
@@ -219,44 +129,14 @@ typedef struct rlvc_planner_statistics {
     uint8_t reserved[2];
 } rlvc_planner_statistics;
 
-/* @return RLVC_OK. O(1). */
-RLVC_API rlvc_status rlvc_planner_stats(const rlvc_planner *planner,
+/* @return RLVC_OK; RLVC_E_MISMATCH: the agent is of classes. O(1). */
+RLVC_API rlvc_status rlvc_planner_stats(const rlvc_agent *agent,
                                         rlvc_planner_statistics *statistics);
 
-/* ------------------------------------------------------------------ snapshots */
-
-/* Beside RLVC_SNAPSHOT_VERSION, which is of agents. */
+/* Of its snapshots, beside RLVC_SNAPSHOT_VERSION, which is of classes. They hold the ring, the
+ * model, the trees that were tried and their returns, and the episode under way, and are made
+ * between two steps: rlvc_save returns RLVC_E_BUSY during one. */
 #define RLVC_PLANNER_SNAPSHOT_VERSION 0x10001u
-
-/* The most bytes that a snapshot of a planner can take: what slot_bytes of its store must be (see
- * rlvc/snapshot.h). A multiple of RLVC_STORE_UNIT. O(1).
- * @return RLVC_OK; RLVC_E_CONFIG, or RLVC_E_MEMORY if it is above RLVC_SLOT_BYTES_MAX: *bytes is 0.
- */
-RLVC_API rlvc_status rlvc_planner_snapshot_size(const rlvc_planner_config *config, uint32_t *bytes);
-
-/* Writes a snapshot of all that is known: the ring, the model, the trees that were tried and their
- * returns, and the episode under way. The planner is not changed. Stack and memory are bounded, but
- * the time is what the store takes for all the bytes. O(bytes).
- * @return RLVC_OK; RLVC_E_BUSY: a step of learning is under way, go on with rlvc_planner_learn;
- * RLVC_E_RANGE: slot_bytes; RLVC_E_STORE: the last whole snapshot is still there. */
-RLVC_API rlvc_status rlvc_planner_save(rlvc_planner *planner, const rlvc_store *store);
-
-/* Makes a planner in the caller's block, as rlvc_planner_init does, out of the newest whole
- * snapshot of a store. It goes on bit for bit as if it had never stopped. The config must be the
- * one it was saved with, in every field. O(bytes).
- * @return RLVC_OK; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE;
- * RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION: also if an agent was saved; RLVC_E_MISMATCH.
- * Unless it is RLVC_OK, *planner is null and the block holds nothing of use. */
-RLVC_API rlvc_status rlvc_planner_load(const rlvc_planner_config *config, void *memory,
-                                       size_t bytes, const rlvc_store *store,
-                                       rlvc_planner **planner);
-
-/* Reads the config of the newest whole snapshot of a store. Only checks that the snapshot is whole.
- * O(bytes).
- * @return RLVC_OK; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED;
- * RLVC_E_VERSION. On error *config is zeros. */
-RLVC_API rlvc_status rlvc_planner_snapshot_peek(const rlvc_store *store,
-                                                rlvc_planner_config *config);
 
 #ifdef __cplusplus
 }

@@ -6,7 +6,8 @@
  * separate situations that need different actions. So this searches for the smallest tree, over the
  * features of the agent's tree, that at each percept in the agent's ring takes the agent's action
  * or one that is as good, and then evaluates it: if it is worth less than the agent's policy, the
- * search is repeated with fewer actions allowed. See rlvc/min_tree.h for how.
+ * search is repeated with fewer actions allowed. See rlvc/min_tree.h for how. The tree of a planner
+ * is small already, and becomes the policy as it is.
  *
  * A policy lies at the beginning of a block of the caller's and is independent of the agent from
  * then on; its domain's ctx must stay. It is used by one thread at a time. Every function here
@@ -44,7 +45,7 @@ typedef struct rlvc_policy_config {
                           at worst */
 } rlvc_policy_config;
 
-/* Fills *config with the defaults for an agent. O(1).
+/* Fills *config with the defaults for an agent; of a planner nobody looks at them. O(1).
  * @return RLVC_OK. */
 RLVC_API rlvc_status rlvc_policy_default(const rlvc_agent *agent, rlvc_policy_config *config);
 
@@ -82,7 +83,7 @@ typedef struct rlvc_policy_info {
      * model, over the interactions behind the classes. An action's Q stands for what follows it
      * where the ring holds none. At percepts of one class the policy may take several actions; the
      * worst of them counts. So they are equal, but for rounding, unless `tolerance` allows a loss.
-     */
+     * Of a planner 0. */
     float value_before;
     float value_after;
 } rlvc_policy_info;

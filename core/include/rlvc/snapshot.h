@@ -53,7 +53,7 @@ typedef struct rlvc_store {
 RLVC_API rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
                                         uint32_t *bytes);
 
-/* The same as a constant expression. */
+/* The same as a constant expression, of an agent of classes. */
 #define RLVC_SNAPSHOT_BYTES(actions, capacity, classes, percept_bytes, feature_bytes)              \
     (((size_t)RLVC_SNAPSHOT_FIXED_BYTES + ((size_t)(capacity) + 1u) * ((percept_bytes) + 8u) +     \
       ((size_t)(classes)-1u) * ((feature_bytes) + 28u) + (size_t)(classes)*9u +                    \
@@ -61,10 +61,10 @@ RLVC_API rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_do
      64u * 64u)
 #define RLVC_SNAPSHOT_FIXED_BYTES 225u
 
-/* Writes a snapshot. The agent is not changed. Stack and memory are bounded, but the time is what
- * the store takes for all the bytes. O(bytes).
- * @return RLVC_OK; RLVC_E_NULL; RLVC_E_REENTERED; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE: the last
- * whole snapshot is still there. */
+/* Writes a snapshot, in the format of the agent's method. The agent is not changed. Stack and
+ * memory are bounded, but the time is what the store takes for all the bytes. O(bytes).
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_REENTERED; RLVC_E_BUSY: a planner is learning, go on with
+ * rlvc_learn; RLVC_E_RANGE: slot_bytes; RLVC_E_STORE: the last whole snapshot is still there. */
 RLVC_API rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store);
 
 /* Makes an agent in the caller's block, as rlvc_agent_init does, out of the newest whole snapshot
@@ -75,20 +75,20 @@ RLVC_API rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store);
  * does not vouch for (check_percept, check_feature) is refused as damaged; a domain without these
  * checks must be right for any record.
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG; RLVC_E_MEMORY; RLVC_E_RANGE: slot_bytes;
- * RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION; RLVC_E_MISMATCH.
- * Unless it is RLVC_OK, *agent is null and the block holds nothing of use. */
+ * RLVC_E_STORE; RLVC_E_EMPTY; RLVC_E_DAMAGED; RLVC_E_VERSION: also of an agent of the other method;
+ * RLVC_E_MISMATCH. Unless it is RLVC_OK, *agent is null and the block holds nothing of use. */
 RLVC_API rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
                                size_t bytes, const rlvc_store *store, rlvc_agent **agent);
 
 /* What the newest whole snapshot of a store is. */
 typedef struct rlvc_snapshot_info {
-    uint32_t version;
+    uint32_t version;  /* RLVC_SNAPSHOT_VERSION, or RLVC_PLANNER_SNAPSHOT_VERSION */
     uint32_t sequence; /* one more with each snapshot */
     uint32_t slot;     /* 0 or 1 */
     uint32_t bytes;
     uint32_t percept_bytes; /* of its domain */
     uint32_t feature_bytes;
-    rlvc_config config;
+    rlvc_config config; /* but its method, which is null, and what the method does not look at */
 } rlvc_snapshot_info;
 
 /* Reads the head of a store without knowing the config. Only checks that the snapshot is whole.

@@ -40,7 +40,8 @@ typedef enum rlvc_status {
     RLVC_E_EMPTY = -11,    /* the store holds no snapshot */
     RLVC_E_DAMAGED = -12,  /* the snapshot is truncated or corrupt */
     RLVC_E_VERSION = -13,  /* the snapshot has a version that this library does not read */
-    RLVC_E_MISMATCH = -14, /* the snapshot was saved with another config or domain */
+    RLVC_E_MISMATCH = -14, /* the snapshot was saved with another config or domain; or the function
+                              is not of the agent's method */
     RLVC_E_PERCEPT = -15   /* the domain refuses the percept */
 } rlvc_status;
 

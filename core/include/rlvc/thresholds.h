@@ -59,7 +59,9 @@ typedef struct rlvc_threshold {
  * @return RLVC_OK; RLVC_E_NULL. */
 RLVC_API rlvc_status rlvc_thresholds_default(rlvc_thresholds *thresholds, uint32_t components);
 
-/* Makes *domain the domain of such percepts, with *thresholds as its ctx.
+/* Makes *domain the domain of such percepts, with *thresholds as its ctx. Its agents learn as
+ * rlvc/planner.h says, unless config.method becomes &rlvc_method_classes: what follows is for
+ * these.
  *
  * Detecting is O(1) for each percept and feature. A cutpoint of a class lies half-way between two
  * neighbouring values that are distinct (on the lower one if rounding would put it on the upper).
@@ -70,6 +72,12 @@ RLVC_API rlvc_status rlvc_thresholds_default(rlvc_thresholds *thresholds, uint32
  *
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_thresholds_domain(rlvc_thresholds *thresholds, rlvc_domain *domain);
+
+/* The same domain without a method of learning, for a policy that was learnt elsewhere
+ * (rlvc_planner_policy_of): a program that only acts then links no learner.
+ * @return as of rlvc_thresholds_domain. */
+RLVC_API rlvc_status rlvc_thresholds_policy_domain(rlvc_thresholds *thresholds,
+                                                   rlvc_domain *domain);
 
 /* Is this a percept of the domain? O(D).
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a NaN, an infinite number, or one out of range. */

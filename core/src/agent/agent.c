@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* The agent: making one, acting and observing (section 4.2.1, part 2), and asking it. */
+/* The method of classes: making an agent, acting and observing (section 4.2.1, part 2), and asking
+ * it. */
 #include "rlvc/float_rules.h"
 
 #include "rlvc/agent.h"
 
-#include "config.h"
 #include "../solve/td.h"
 #include "state.h"
 #include <string.h>
 
 /* The macro of agent.h allows for this. */
 typedef char fixed_part_fits[sizeof(rlvc_agent) <= RLVC_AGENT_FIXED_BYTES ? 1 : -1];
+typedef char config_is_first[offsetof(rlvc_agent, config) == 0 ? 1 : -1];
 typedef char split_record_fits[sizeof(rlvc_tree_split) == RLVC_SPLIT_BYTES ? 1 : -1];
 
 /* ------------------------------------------------------------------ making an agent */
@@ -27,7 +28,7 @@ static void carve(rlvc_agent *agent, const rlvc_config *config, const rlvc_domai
     rlvc_workspace_carve(&agent->space, arena, config, domain->feature_bytes);
 }
 
-rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
+rlvc_status rlvc_classes_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
     if (!bytes)
         return RLVC_E_NULL;
     rlvc_status status = rlvc_config_status(config, domain);
@@ -45,13 +46,13 @@ rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domain *domain
     return status;
 }
 
-rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain, void *memory,
-                            size_t bytes, rlvc_agent **agent) {
+rlvc_status rlvc_classes_init(const rlvc_config *config, const rlvc_domain *domain, void *memory,
+                              size_t bytes, rlvc_agent **agent) {
     if (!agent)
         return RLVC_E_NULL;
     *agent = NULL;
     size_t needed = 0;
-    rlvc_status status = rlvc_agent_size(config, domain, &needed);
+    rlvc_status status = rlvc_classes_size(config, domain, &needed);
     if (status == RLVC_OK)
         status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)
@@ -79,6 +80,8 @@ rlvc_status rlvc_agent_init(const rlvc_config *config, const rlvc_domain *domain
 static rlvc_status available(const rlvc_agent *agent) {
     if (!agent)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
     return agent->busy ? RLVC_E_REENTERED : RLVC_OK;
 }
 
@@ -100,7 +103,7 @@ static rlvc_status vouch(rlvc_agent *agent, const void *percept) {
     return refused ? RLVC_E_PERCEPT : RLVC_OK;
 }
 
-rlvc_status rlvc_begin(rlvc_agent *agent, const void *percept) {
+rlvc_status rlvc_classes_begin(rlvc_agent *agent, const void *percept) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
@@ -136,7 +139,7 @@ static uint32_t explore(const rlvc_agent *agent, uint32_t class_id, rlvc_rng *rn
     return rlvc_rng_below(rng, agent->config.actions);
 }
 
-rlvc_status rlvc_act(rlvc_agent *agent, rlvc_choice *choice) {
+rlvc_status rlvc_classes_act(rlvc_agent *agent, rlvc_choice *choice) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
@@ -178,8 +181,8 @@ static rlvc_status check_observation(const rlvc_agent *agent, rlvc_choice choice
                : RLVC_E_BUSY;
 }
 
-rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, const void *next,
-                         uint8_t end) {
+rlvc_status rlvc_classes_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
+                                 const void *next, uint8_t end) {
     rlvc_status status = available(agent);
     if (status == RLVC_OK)
         status = check_observation(agent, choice, reward, next, end);
@@ -206,8 +209,8 @@ rlvc_status rlvc_observe(rlvc_agent *agent, rlvc_choice choice, float reward, co
 
 /* ------------------------------------------------------------------ asking */
 
-rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
-                         uint32_t *action) {
+rlvc_status rlvc_classes_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
+                                 uint32_t *action) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
@@ -222,7 +225,7 @@ rlvc_status rlvc_predict(rlvc_agent *agent, const void *percept, uint32_t *class
     return status;
 }
 
-rlvc_status rlvc_stats(const rlvc_agent *agent, rlvc_statistics *statistics) {
+rlvc_status rlvc_classes_summary(const rlvc_agent *agent, rlvc_statistics *statistics) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;
@@ -286,6 +289,23 @@ rlvc_status rlvc_split_at(const rlvc_agent *agent, uint32_t index, rlvc_split *s
     return RLVC_OK;
 }
 
+rlvc_status rlvc_classes_budget_min(const rlvc_agent *agent, uint32_t *budget) {
+    if (!agent || !budget)
+        return RLVC_E_NULL;
+    *budget = RLVC_BUDGET_MIN;
+    return RLVC_OK;
+}
+
+void rlvc_classes_view(rlvc_agent *agent, rlvc_learnt *learnt) {
+    learnt->domain = &agent->domain;
+    learnt->tree = &agent->tree;
+    learnt->policy = agent->values.policy;
+    learnt->values = &agent->values;
+    learnt->busy = &agent->busy;
+    learnt->actions = agent->config.actions;
+    learnt->step = agent->step;
+}
+
 /* Does the domain vouch for all features of the tree and all percepts in the ring? */
 static int records_are_sound(rlvc_agent *agent) {
     const rlvc_domain *domain = &agent->domain;
@@ -303,7 +323,7 @@ static int records_are_sound(rlvc_agent *agent) {
     return sound;
 }
 
-rlvc_status rlvc_agent_check(rlvc_agent *agent) {
+rlvc_status rlvc_classes_check(rlvc_agent *agent) {
     rlvc_status status = available(agent);
     if (status != RLVC_OK)
         return status;

@@ -2,36 +2,47 @@
 /* The config: defaults and ranges. */
 #include "rlvc/float_rules.h"
 
-#include "config.h"
-
 #include "../base/float_math.h"
-#include "../base/solver_select.h"
+#include "../base/method.h"
 #include "../stats/rank_sum.h"
+#include "rlvc/planner.h"
 #include <stddef.h>
 #include <string.h>
 
+static void set_planner(rlvc_config *config) {
+    config->sample = 2000;
+    config->model_leaves = 32;
+    config->leaves = RLVC_PLANNER_LEAVES_MAX;
+    config->horizon = 500;
+    config->random = 200;
+    config->candidates = 1000;
+    config->patience = 300;
+}
+
+/* In code, which takes less flash than a table. */
 rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, uint32_t actions) {
-    static const rlvc_config defaults = {
-        .capacity = 2000,
-        .classes = 64,
-        .features_at_once = RLVC_DETECT_FEATURES,
-        .min_samples = 8,
-        .max_sweeps = 10000,
-        .seed = 1,
-        .criterion = RLVC_CRITERION_RESIDUAL,
-        .score = RLVC_SCORE_GAIN,
-        .solver = RLVC_SOLVER_VALUE_ITERATION,
-        .explore = RLVC_EXPLORE_DIRECTED,
-        .discount = 0.9f,
-        .epsilon = 0.9f,
-        .alpha = 0.01f,
-        .alpha_known = 1.0f,
-        .tolerance = 0.01f,
-        .learning_rate = 0.1f,
-    };
     if (!config || !domain)
         return RLVC_E_NULL;
-    *config = defaults;
+    memset(config, 0, sizeof *config);
+    config->method = RLVC_METHOD_OF(domain);
+    config->capacity = 2000;
+    config->classes = 64;
+    config->features_at_once = RLVC_DETECT_FEATURES;
+    config->min_samples = 8;
+    config->max_sweeps = 10000;
+    config->seed = 1;
+    config->criterion = RLVC_CRITERION_RESIDUAL;
+    config->score = RLVC_SCORE_GAIN;
+    config->solver = RLVC_SOLVER_VALUE_ITERATION;
+    config->explore = RLVC_EXPLORE_DIRECTED;
+    config->discount = 0.9f;
+    config->epsilon = 0.9f;
+    config->alpha = 0.01f;
+    config->alpha_known = 1.0f;
+    config->tolerance = 0.01f;
+    config->learning_rate = 0.1f;
+    if (RLVC_HAS_PLANNER)
+        set_planner(config);
     config->actions = actions;
     if (domain->features_max > 0 && domain->features_max < RLVC_DETECT_FEATURES)
         config->features_at_once = domain->features_max;
@@ -45,6 +56,7 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
  * order of the config's fields. */
 enum {
     NOTHING_WRONG,
+    WRONG_METHOD,
     WRONG_DOMAIN_PERCEPT_BYTES,
     WRONG_DOMAIN_FEATURE_BYTES,
     WRONG_DOMAIN_EXHIBITS,
@@ -72,7 +84,18 @@ enum {
     WRONG_LEARNING_RATE,
     WRONG_SMALLEST_EFFECT,
     WRONG_SUCCESSORS_DOMAIN,
-    WRONG_RANKS
+    WRONG_RANKS,
+    WRONG_PLANNER_DOMAIN,
+    WRONG_PLANNER_COMPONENTS,
+    WRONG_PLANNER_ACTIONS,
+    WRONG_PLANNER_CAPACITY,
+    WRONG_SAMPLE,
+    WRONG_MODEL_LEAVES,
+    WRONG_LEAVES,
+    WRONG_HORIZON,
+    WRONG_RANDOM,
+    WRONG_CANDIDATES,
+    WRONG_PATIENCE
 };
 
 static int wrong_in_domain(const rlvc_domain *domain) {
@@ -89,14 +112,19 @@ static int wrong_in_domain(const rlvc_domain *domain) {
     return NOTHING_WRONG;
 }
 
-/* The fields from an offset on: those of one type follow each other, as the next lines check. */
-static const unsigned char *fields_of(const rlvc_config *config, size_t offset) {
-    return (const unsigned char *)config + offset;
+/* The bits of the i-th of the fields of 4 bytes from an offset on: those of one type follow each
+ * other, as the next lines check. */
+static uint32_t field_of(const rlvc_config *config, size_t offset, int i) {
+    uint32_t bits;
+    memcpy(&bits, (const unsigned char *)config + offset + 4u * (size_t)i, sizeof bits);
+    return bits;
 }
-typedef char six_counts[offsetof(rlvc_config, seed) == 24 ? 1 : -1];
+typedef char
+    six_counts[offsetof(rlvc_config, seed) - offsetof(rlvc_config, actions) == 24 ? 1 : -1];
 typedef char
     eight_choices[offsetof(rlvc_config, discount) - offsetof(rlvc_config, criterion) == 8 ? 1 : -1];
-typedef char seven_numbers[sizeof(rlvc_config) - offsetof(rlvc_config, discount) == 28 ? 1 : -1];
+typedef char
+    seven_numbers[offsetof(rlvc_config, sample) - offsetof(rlvc_config, discount) == 28 ? 1 : -1];
 
 /* The range of a field, its ends included. */
 typedef struct range {
@@ -105,13 +133,12 @@ typedef struct range {
 } range;
 
 static int wrong_in_counts(const rlvc_config *config) {
-    uint32_t count[6];
     static const range ranges[] = {{1, 255},       {1, INT32_MAX},
                                    {1, 65535},     {1, RLVC_DETECT_FEATURES},
                                    {2, INT32_MAX}, {1, INT32_MAX}};
-    memcpy(count, fields_of(config, offsetof(rlvc_config, actions)), sizeof count);
-    for (int i = 0; i < (int)(sizeof count / sizeof count[0]); i++) {
-        if (count[i] < ranges[i].low || count[i] > ranges[i].high)
+    for (int i = 0; i < (int)(sizeof ranges / sizeof ranges[0]); i++) {
+        const uint32_t count = field_of(config, offsetof(rlvc_config, actions), i);
+        if (count < ranges[i].low || count > ranges[i].high)
             return WRONG_ACTIONS + i;
     }
     return NOTHING_WRONG;
@@ -119,7 +146,7 @@ static int wrong_in_counts(const rlvc_config *config) {
 
 /* Bit n of a field's mask: it may be n. */
 static int wrong_in_choices(const rlvc_config *config) {
-    uint8_t choice[8];
+    const uint8_t *choice = (const uint8_t *)config + offsetof(rlvc_config, criterion);
     static const uint8_t masks[] = {
         (RLVC_CRITERIA) & (1u << RLVC_CRITERION_RETURNS | 1u << RLVC_CRITERION_RESIDUAL),
         (RLVC_SCORES) & (1u << RLVC_SCORE_GAIN | 1u << RLVC_SCORE_RANKS),
@@ -129,8 +156,7 @@ static int wrong_in_choices(const rlvc_config *config) {
         1u << RLVC_EXPLORE_UNIFORM | 1u << RLVC_EXPLORE_DIRECTED,
         (RLVC_DEPENDENCES)&3u,
         1};
-    memcpy(choice, fields_of(config, offsetof(rlvc_config, criterion)), sizeof choice);
-    for (int i = 0; i < (int)sizeof choice; i++) {
+    for (int i = 0; i < (int)sizeof masks; i++) {
         if (choice[i] > 7u || !(masks[i] >> choice[i] & 1u))
             return WRONG_CRITERION + i;
     }
@@ -139,15 +165,14 @@ static int wrong_in_choices(const rlvc_config *config) {
 
 /* Numbers from 0 on are in the order of their bits; those below, and a NaN, come after them all. */
 static int wrong_in_numbers(const rlvc_config *config) {
-    uint32_t number[7];
-    memcpy(number, fields_of(config, offsetof(rlvc_config, discount)), sizeof number);
-    for (int i = 0; i < (int)(sizeof number / sizeof number[0]); i++) {
+    for (int i = 0; i < 7; i++) {
+        const uint32_t number = field_of(config, offsetof(rlvc_config, discount), i);
         const int may_be_0 = i < 2 || i == 6;
         const float one = RLVC_HAS_UNDISCOUNTED || i > 0 ? 1.0f : 0.9999999f;
         const float most_worth = RLVC_HAS_EFFECT ? RLVC_REWARD_MAX : 0.0f;
         const float most = i == 4 ? RLVC_REWARD_MAX : i < 6 ? one : most_worth;
-        const int is_0 = number[i] << 1u == 0; /* or -0 */
-        if (is_0 ? !may_be_0 : number[i] > rlvc_bits_of(most))
+        const int is_0 = number << 1u == 0; /* or -0 */
+        if (is_0 ? !may_be_0 : number > rlvc_bits_of(most))
             return WRONG_DISCOUNT + i;
     }
     return NOTHING_WRONG;
@@ -162,10 +187,35 @@ static int wrong_together(const rlvc_config *config, const rlvc_domain *domain) 
     return NOTHING_WRONG;
 }
 
+static int wrong_in_planner(const rlvc_config *config, const rlvc_domain *domain) {
+    const struct {
+        uint32_t count;
+        range range;
+    } fields[] = {
+        {domain->percept_bytes / 4u, {1, RLVC_PLANNER_COMPONENTS_MAX}},
+        {config->actions, {2, RLVC_PLANNER_ACTIONS_MAX}},
+        {config->capacity, {64, RLVC_PLANNER_CAPACITY_MAX}},
+        {config->sample, {32, config->capacity}},
+        {config->model_leaves, {1, RLVC_PLANNER_MODEL_LEAVES_MAX}},
+        {config->leaves, {2, RLVC_PLANNER_LEAVES_MAX}},
+        {config->horizon, {1, RLVC_PLANNER_CAPACITY_MAX}},
+        {config->random, {32, config->capacity / 2u}},
+        {config->candidates, {1, RLVC_PLANNER_CANDIDATES_MAX}},
+        {config->patience, {1, RLVC_PLANNER_CANDIDATES_MAX}},
+    };
+    if (domain->kind != RLVC_DOMAIN_THRESHOLDS)
+        return WRONG_PLANNER_DOMAIN;
+    for (int i = 0; i < (int)(sizeof fields / sizeof fields[0]); i++)
+        if (fields[i].count < fields[i].range.low || fields[i].count > fields[i].range.high)
+            return WRONG_PLANNER_COMPONENTS + i;
+    return NOTHING_WRONG;
+}
+
 /* Nothing else needs the messages, so that they are left out of a program that does not ask why. */
 static const char *message_of(int wrong) {
     static const char *const messages[] = {
         [NOTHING_WRONG] = "ok",
+        [WRONG_METHOD] = "method must be one of &rlvc_method_* that the library was built with",
         [WRONG_DOMAIN_PERCEPT_BYTES] = "domain: percept_bytes must be within [1, 1048576]",
         [WRONG_DOMAIN_FEATURE_BYTES] = "domain: feature_bytes must be within [1, 65536]",
         [WRONG_DOMAIN_EXHIBITS] =
@@ -196,12 +246,32 @@ static const char *message_of(int wrong) {
         [WRONG_SMALLEST_EFFECT] = "smallest_effect must be within [0, 1e12]",
         [WRONG_SUCCESSORS_DOMAIN] = "successors needs a features_max above 0 and no oracle",
         [WRONG_RANKS] = "score ranks needs a domain without an oracle and a capacity below 2^21",
+        [WRONG_PLANNER_DOMAIN] = "domain: must be of thresholds for the planner",
+        [WRONG_PLANNER_COMPONENTS] = "domain: components must be within [1, 64] for the planner",
+        [WRONG_PLANNER_ACTIONS] = "actions must be within [2, 64] for the planner",
+        [WRONG_PLANNER_CAPACITY] = "capacity must be within [64, 100000000] for the planner",
+        [WRONG_SAMPLE] = "sample must be within [32, capacity]",
+        [WRONG_MODEL_LEAVES] = "model_leaves must be within [1, 256]",
+        [WRONG_LEAVES] = "leaves must be within [2, 16]",
+        [WRONG_HORIZON] = "horizon must be within [1, 100000000]",
+        [WRONG_RANDOM] = "random must be within [32, capacity / 2]",
+        [WRONG_CANDIDATES] = "candidates must be within [1, 1000000]",
+        [WRONG_PATIENCE] = "patience must be within [1, 1000000]",
     };
     return messages[wrong];
 }
 
+/* Is the method one that is built in? */
+static int has_method(const rlvc_config *config) {
+    return RLVC_METHOD_IS_IN(config->method);
+}
+
 static int wrong_in(const rlvc_config *config, const rlvc_domain *domain) {
+    if (!has_method(config))
+        return WRONG_METHOD;
     int wrong = wrong_in_domain(domain);
+    if (!wrong && rlvc_config_plans(config))
+        return wrong_in_planner(config, domain);
     if (!wrong)
         wrong = wrong_in_counts(config);
     if (!wrong)

@@ -469,7 +469,7 @@ static uint32_t needed(const rlvc_agent *agent) {
     return phase == RLVC_PHASE_MODEL || rlvc_phase_splits(phase) ? RLVC_BUDGET_MIN : SOLVE_UNITS;
 }
 
-rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
+rlvc_status rlvc_classes_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
     if (!agent || !progress)
         return RLVC_E_NULL;
     if (agent->busy)
@@ -503,6 +503,8 @@ rlvc_status rlvc_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progre
 rlvc_status rlvc_learn_abandon(rlvc_agent *agent) {
     if (!agent)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
     if (agent->busy)
         return RLVC_E_REENTERED;
     if (agent->learner.phase == RLVC_PHASE_IDLE)

@@ -153,6 +153,8 @@ static void forget_last(rlvc_replay *replay) {
 rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations, uint32_t *undone) {
     if (!agent)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
     if (agent->busy)
         return RLVC_E_REENTERED;
     if (!undone)

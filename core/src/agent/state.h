@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The agent's state: everything that lies in the caller's block. */
+/* The state of an agent of classes: everything that lies in the caller's block. */
 #ifndef RLVC_SRC_STATE_H
 #define RLVC_SRC_STATE_H
 
 #include "../solve/model.h"
+#include "../base/method.h"
 #include "../base/rng.h"
 #include "../explore/novelty.h"
 #include "../solve/value_iteration.h"

@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* Which solvers, scores, criteria, domains, oracles, kinds of dependence, smallest effects and
- * discounts are built in. A controller that uses one of each need not carry the others:
- * -DRLVC_SOLVERS=1 -DRLVC_SCORES=1 -DRLVC_CRITERIA=2 -DRLVC_DOMAINS=2 -DRLVC_ORACLES=1
- * -DRLVC_DEPENDENCES=1 -DRLVC_EFFECTS=1 -DRLVC_DISCOUNTS=1 leave value iteration, the information
- * gain, the residual criterion, the domain of bits, the default refining oracle, samples that count
- * as independent, splits by any difference and discounts below 1, and save about 4 KiB. Bit n
+/* Which methods, solvers, scores, criteria, domains, oracles, kinds of dependence, smallest effects
+ * and discounts are built in. A controller that uses one of each need not carry the others:
+ * -DRLVC_METHODS=1 -DRLVC_SOLVERS=1 -DRLVC_SCORES=1 -DRLVC_CRITERIA=2 -DRLVC_DOMAINS=2
+ * -DRLVC_ORACLES=1 -DRLVC_DEPENDENCES=1 -DRLVC_EFFECTS=1 -DRLVC_DISCOUNTS=1 leave classes, value
+ * iteration, the information gain, the residual criterion, the domain of bits, the default refining
+ * oracle, samples that count as independent, splits by any difference and discounts below 1. Bit n
  * stands for number n of RLVC_SOLVER_*, RLVC_SCORE_*, RLVC_CRITERION_* or RLVC_DOMAIN_*, or of
- * config.dependence; of RLVC_ORACLES 0 is the default oracle and 1 the domain's own; of
- * RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any other; of RLVC_DISCOUNTS 0 is a discount below
- * 1, and 1 is 1.
+ * config.dependence; of RLVC_METHODS 0 is classes and 1 the planner; of RLVC_ORACLES 0 is the
+ * default oracle and 1 the domain's own; of RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any
+ * other; of RLVC_DISCOUNTS 0 is a discount below 1, and 1 is 1.
  *
  * What is left out is compiled all the same, under conditions that are constant, so that it cannot
  * rot. */
 #ifndef RLVC_SRC_SOLVER_SELECT_H
 #define RLVC_SRC_SOLVER_SELECT_H
 
+#ifndef RLVC_METHODS
+#define RLVC_METHODS 3u
+#endif
 #ifndef RLVC_SOLVERS
 #define RLVC_SOLVERS 15u
 #endif
@@ -41,6 +44,9 @@
 #ifndef RLVC_EFFECTS
 #define RLVC_EFFECTS 3u
 #endif
+
+/* 1 if the planner is built in. O(1). */
+#define RLVC_HAS_PLANNER ((RLVC_METHODS) >> 1 & 1)
 
 /* 1 if a domain may have its own oracle; if dependence can be allowed for; if a split can be too
  * little worth. O(1). */

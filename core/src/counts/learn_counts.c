@@ -16,6 +16,8 @@ static int can_learn(const rlvc_agent *agent) {
 rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts *counts, size_t *bytes) {
     if (!agent || !counts || !bytes)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
     rlvc_arena arena = {NULL, 0};
     rlvc_count_table table;
     uint64_t total;
@@ -102,13 +104,15 @@ static void learn_round(rlvc_agent *agent, rlvc_count_table *table, uint64_t tot
     agent->interactions += total;
     learner->phase = RLVC_PHASE_FINISH;
     learner->at = 0;
-    (void)rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &ended);
+    (void)rlvc_classes_learn(agent, RLVC_BUDGET_UNBOUNDED, &ended);
 }
 
 rlvc_status rlvc_learn_counts(rlvc_agent *agent, const rlvc_counts *counts, void *memory,
                               size_t bytes, rlvc_progress *progress) {
     if (!agent || !counts || !progress)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
     if (agent->busy)
         return RLVC_E_REENTERED;
     if (!can_learn(agent))

@@ -10,7 +10,7 @@
 #include "export_descriptors.h"
 #include "export_thresholds.h"
 #include "export_tree.h"
-#include "../agent/state.h"
+#include "../base/method.h"
 
 #define TABLE_BITS_MAX 16u
 
@@ -222,13 +222,15 @@ rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree,
 
 rlvc_status rlvc_export_c(rlvc_agent *agent, const char *name, rlvc_write write, void *ctx,
                           rlvc_export_info *info) {
+    rlvc_learnt learnt;
     if (!agent || !name || !write)
         return RLVC_E_NULL;
-    if (agent->busy)
+    rlvc_view(agent, &learnt);
+    if (*learnt.busy)
         return RLVC_E_REENTERED;
-    agent->busy = 1;
-    const rlvc_status status = rlvc_export_tree(&agent->domain, &agent->tree, agent->values.policy,
-                                                agent->config.actions, name, write, ctx, info);
-    agent->busy = 0;
+    *learnt.busy = 1;
+    const rlvc_status status = rlvc_export_tree(learnt.domain, learnt.tree, learnt.policy,
+                                                learnt.actions, name, write, ctx, info);
+    *learnt.busy = 0;
     return status;
 }

@@ -4,7 +4,7 @@
 
 #include "print.h"
 
-#include "../agent/state.h"
+#include "../base/method.h"
 
 typedef rlvc_printer printer;
 
@@ -177,16 +177,18 @@ void rlvc_printer_run(printer *p, uint32_t format) {
 }
 
 rlvc_status rlvc_print(rlvc_agent *agent, uint32_t format, rlvc_write write, void *ctx) {
+    rlvc_learnt learnt;
     if (!agent || !write)
         return RLVC_E_NULL;
-    if (agent->busy)
+    rlvc_view(agent, &learnt);
+    if (*learnt.busy)
         return RLVC_E_REENTERED;
     if (format > RLVC_PRINT_JSON)
         return RLVC_E_RANGE;
-    printer p = {{write, ctx, RLVC_OK}, &agent->domain,        &agent->tree, agent->values.policy,
-                 &agent->values,        agent->config.actions, agent->step};
-    agent->busy = 1;
+    printer p = {{write, ctx, RLVC_OK}, learnt.domain,  learnt.tree, learnt.policy,
+                 learnt.values,         learnt.actions, learnt.step};
+    *learnt.busy = 1;
     rlvc_printer_run(&p, format);
-    agent->busy = 0;
+    *learnt.busy = 0;
     return p.text.status;
 }

@@ -8,50 +8,12 @@
 #include "cells.h"
 #include <string.h>
 
-/* ------------------------------------------------------------------ config and memory */
+/* ------------------------------------------------------------------ memory */
 
-rlvc_status rlvc_planner_default(rlvc_planner_config *config, uint32_t components,
-                                 uint32_t actions) {
-    static const rlvc_planner_config defaults = {
-        .capacity = 2000,
-        .sample = 2000,
-        .model_leaves = 32,
-        .leaves = RLVC_PLANNER_LEAVES_MAX,
-        .horizon = 500,
-        .random = 200,
-        .candidates = 1000,
-        .patience = 300,
-        .seed = 1,
-    };
-    if (!config)
-        return RLVC_E_NULL;
-    *config = defaults;
-    config->components = components;
-    config->actions = actions;
-    return RLVC_OK;
-}
-
-static int within(uint32_t x, uint32_t low, uint32_t high) {
-    return x >= low && x <= high;
-}
-
-static rlvc_status check(const rlvc_planner_config *config) {
-    int fine = within(config->components, 1, RLVC_PLANNER_COMPONENTS_MAX) &&
-               within(config->actions, 2, RLVC_PLANNER_ACTIONS_MAX) &&
-               within(config->capacity, 64, RLVC_PLANNER_CAPACITY_MAX) &&
-               within(config->sample, 32, config->capacity) &&
-               within(config->model_leaves, 1, RLVC_PLANNER_MODEL_LEAVES_MAX) &&
-               within(config->leaves, 2, RLVC_PLANNER_LEAVES_MAX) &&
-               within(config->horizon, 1, RLVC_PLANNER_CAPACITY_MAX) &&
-               within(config->random, 32, config->capacity / 2u) &&
-               within(config->candidates, 1, RLVC_PLANNER_CANDIDATES_MAX) &&
-               within(config->patience, 1, RLVC_PLANNER_CANDIDATES_MAX);
-    return fine ? RLVC_OK : RLVC_E_CONFIG;
-}
-
-static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_planner_config *config) {
-    uint32_t d = config->components;
+static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_config *config, uint32_t d) {
     (void)rlvc_arena_carve(arena, 1, sizeof *planner);
+    rlvc_tree_carve(&planner->tree, arena, RLVC_PLANNER_LEAVES_MAX, RLVC_THRESHOLDS_FEATURE_BYTES);
+    planner->tree_action = rlvc_arena_carve(arena, RLVC_PLANNER_LEAVES_MAX, 1);
     rlvc_experience_carve(&planner->experience, arena, d, config->capacity);
     planner->sample.room = config->sample;
     planner->sample.row = rlvc_arena_carve(arena, config->sample, sizeof *planner->sample.row);
@@ -71,42 +33,44 @@ static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_planner_c
     planner->fresh = rlvc_arena_carve(arena, planner->cells_bytes, 1);
 }
 
-rlvc_status rlvc_planner_size(const rlvc_planner_config *config, size_t *bytes) {
+rlvc_status rlvc_planner_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
     rlvc_planner planner;
     rlvc_arena arena = {NULL, 0};
-    if (!config || !bytes)
+    if (!bytes)
         return RLVC_E_NULL;
     *bytes = 0;
-    if (check(config) != RLVC_OK)
-        return RLVC_E_CONFIG;
-    carve(&planner, &arena, config);
+    rlvc_status status = rlvc_config_status(config, domain);
+    if (status != RLVC_OK)
+        return status;
+    carve(&planner, &arena, config, rlvc_planner_components(domain));
     *bytes = (size_t)arena.used;
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_init(const rlvc_planner_config *config, void *memory, size_t bytes,
-                              rlvc_planner **planner) {
+rlvc_status rlvc_planner_init(const rlvc_config *config, const rlvc_domain *domain, void *memory,
+                              size_t bytes, rlvc_agent **agent) {
     size_t needed;
-    if (!planner)
+    if (!agent)
         return RLVC_E_NULL;
-    *planner = NULL;
-    rlvc_status status = rlvc_planner_size(config, &needed);
+    *agent = NULL;
+    rlvc_status status = rlvc_planner_size(config, domain, &needed);
+    if (status == RLVC_OK)
+        status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)
         return status;
-    if (!memory)
-        return RLVC_E_NULL;
-    if ((uintptr_t)memory % RLVC_ALIGNMENT != 0 || bytes < needed)
-        return RLVC_E_MEMORY;
-    const rlvc_planner_config copied = *config; /* it may lie in the block */
+    const rlvc_config copied_config = *config; /* they may lie in the block */
+    const rlvc_domain copied_domain = *domain;
     rlvc_arena arena = {(unsigned char *)memory, 0};
     rlvc_planner *made = memory;
     RLVC_UNPOISON(memory, needed);
     memset(memory, 0, needed);
-    made->config = copied;
-    carve(made, &arena, &copied);
+    made->config = copied_config;
+    made->domain = copied_domain;
+    made->components = rlvc_planner_components(&copied_domain);
+    carve(made, &arena, &copied_config, made->components);
     made->gainful = 1;
-    rlvc_rng_seed(&made->rng, copied.seed);
-    *planner = made;
+    rlvc_rng_seed(&made->rng, copied_config.seed);
+    *agent = memory;
     return RLVC_OK;
 }
 
@@ -117,7 +81,7 @@ static int is_number(float x, float most) {
 }
 
 static int is_percept(const rlvc_planner *planner, const float *percept) {
-    for (uint32_t i = 0; i < planner->config.components; i++)
+    for (uint32_t i = 0; i < planner->components; i++)
         if (!is_number(percept[i], RLVC_PLANNER_NUMBER_MAX))
             return 0;
     return 1;
@@ -143,7 +107,7 @@ static uint32_t action_of(rlvc_planner *planner, const rlvc_acting *acting, cons
 
 /* Begins to count an episode. */
 static void open_episode(rlvc_planner *planner, const float *percept) {
-    memcpy(planner->now, percept, planner->config.components * sizeof(float));
+    memcpy(planner->now, percept, planner->components * sizeof(float));
     planner->steps = 0;
     planner->earned = 0.0f;
     planner->new_cells = 0;
@@ -152,14 +116,26 @@ static void open_episode(rlvc_planner *planner, const float *percept) {
     planner->acting = acting;
 }
 
-rlvc_status rlvc_planner_begin(rlvc_planner *planner, const float *percept) {
-    if (!planner || !percept)
+/* The planner that an agent is, if the percept is one of its.
+ * @return RLVC_OK; as of rlvc_planner_of; RLVC_E_NULL; RLVC_E_PERCEPT. */
+static rlvc_status available(rlvc_agent *agent, const float *percept, rlvc_planner **planner) {
+    const rlvc_status status = rlvc_planner_of(agent, planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!percept)
         return RLVC_E_NULL;
-    if (!is_percept(planner, percept))
-        return RLVC_E_RANGE;
+    return is_percept(*planner, percept) ? RLVC_OK : RLVC_E_PERCEPT;
+}
+
+rlvc_status rlvc_planner_begin(rlvc_agent *agent, const void *first) {
+    rlvc_planner *planner;
+    const float *percept = first;
+    const rlvc_status status = available(agent, percept, &planner);
+    if (status != RLVC_OK)
+        return status;
     if (!rlvc_experience_has_room(&planner->experience))
         return RLVC_E_BUSY;
-    uint32_t d = planner->config.components;
+    uint32_t d = planner->components;
     rlvc_experience_begin(&planner->experience, percept);
     memcpy(planner->start + (size_t)(planner->starts % RLVC_PLANNER_STARTS) * d, percept,
            d * sizeof(float));
@@ -169,22 +145,29 @@ rlvc_status rlvc_planner_begin(rlvc_planner *planner, const float *percept) {
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_act(rlvc_planner *planner, uint32_t *action) {
-    if (!planner || !action)
+rlvc_status rlvc_planner_act(rlvc_agent *agent, rlvc_choice *choice) {
+    rlvc_planner *planner;
+    const rlvc_status status = rlvc_planner_of(agent, &planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!choice)
         return RLVC_E_NULL;
     if (!planner->open)
         return RLVC_E_ORDER;
     const float *s = rlvc_experience_percept(&planner->experience, planner->experience.head);
-    *action = action_of(planner, &planner->acting, s);
+    choice->action = (uint8_t)action_of(planner, &planner->acting, s);
+    choice->exploited = planner->acting.why >= RLVC_PLANNER_NEW;
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_act_at(rlvc_planner *planner, const float *percept, uint32_t *action) {
+rlvc_status rlvc_planner_act_at(rlvc_agent *agent, const float *percept, uint32_t *action) {
+    rlvc_planner *planner;
     rlvc_acting acting;
-    if (!planner || !percept || !action)
+    const rlvc_status status = available(agent, percept, &planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!action)
         return RLVC_E_NULL;
-    if (!is_percept(planner, percept))
-        return RLVC_E_RANGE;
     choose_acting(planner, &acting);
     *action = action_of(planner, &acting, percept);
     return RLVC_OK;
@@ -205,7 +188,7 @@ static void note_return(rlvc_planner *planner) {
 static void note_exploration(rlvc_planner *planner) {
     uint32_t cells = RLVC_CELLS_SIDE * RLVC_CELLS_SIDE;
     uint32_t most = planner->steps < cells ? planner->steps : cells;
-    most *= rlvc_cells_pairs(planner->config.components);
+    most *= rlvc_cells_pairs(planner->components);
     planner->gainful = planner->new_cells * 50u >= most;
 }
 
@@ -243,25 +226,27 @@ static void close_episode(rlvc_planner *planner, uint8_t end) {
 }
 
 /* May this be stored? */
-static rlvc_status check_interaction(const rlvc_planner *planner, uint32_t action, float reward,
-                                     const float *next, uint8_t end) {
+static rlvc_status check_interaction(const rlvc_planner *planner, rlvc_choice choice, float reward,
+                                     uint8_t end) {
     if (!planner->open)
         return RLVC_E_ORDER;
-    if (action >= planner->config.actions || end > RLVC_TRUNCATED || !is_percept(planner, next))
+    if (choice.action >= planner->config.actions || choice.exploited > 1 || end > RLVC_TRUNCATED)
         return RLVC_E_RANGE;
     if (!is_number(reward, RLVC_REWARD_MAX))
         return RLVC_E_REWARD;
     return rlvc_experience_has_room(&planner->experience) ? RLVC_OK : RLVC_E_BUSY;
 }
 
-rlvc_status rlvc_planner_observe(rlvc_planner *planner, uint32_t action, float reward,
-                                 const float *next, uint8_t end) {
-    if (!planner || !next)
-        return RLVC_E_NULL;
-    rlvc_status status = check_interaction(planner, action, reward, next, end);
+rlvc_status rlvc_planner_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
+                                 const void *reached, uint8_t end) {
+    rlvc_planner *planner;
+    const float *next = reached;
+    rlvc_status status = available(agent, next, &planner);
+    if (status == RLVC_OK)
+        status = check_interaction(planner, choice, reward, end);
     if (status != RLVC_OK)
         return status;
-    rlvc_experience_append(&planner->experience, (uint8_t)action, reward, next, end);
+    rlvc_experience_append(&planner->experience, choice.action, reward, next, end);
     planner->earned += reward;
     planner->steps++;
     if (planner->acting.why == RLVC_PLANNER_EXPLORE) {
@@ -278,8 +263,12 @@ rlvc_status rlvc_planner_observe(rlvc_planner *planner, uint32_t action, float r
 
 /* ------------------------------------------------------------------ learning and asking */
 
-rlvc_status rlvc_planner_learn(rlvc_planner *planner, uint32_t budget, rlvc_progress *progress) {
-    if (!planner || !progress)
+rlvc_status rlvc_planner_learn(rlvc_agent *agent, uint32_t budget, rlvc_progress *progress) {
+    rlvc_planner *planner;
+    const rlvc_status status = rlvc_planner_of(agent, &planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!progress)
         return RLVC_E_NULL;
     uint32_t grain = rlvc_planning_grain(planner);
     if (budget < grain)
@@ -292,22 +281,43 @@ rlvc_status rlvc_planner_learn(rlvc_planner *planner, uint32_t budget, rlvc_prog
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_budget_min(const rlvc_planner *planner, uint32_t *budget) {
-    if (!planner || !budget)
+rlvc_status rlvc_planner_budget_min(const rlvc_agent *agent, uint32_t *budget) {
+    if (!agent || !budget)
         return RLVC_E_NULL;
-    *budget = rlvc_planning_grain(planner);
+    *budget = rlvc_planning_grain((const rlvc_planner *)(const void *)agent);
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_predict(const rlvc_planner *planner, const float *percept,
+rlvc_status rlvc_planner_predict(rlvc_agent *agent, const void *percept, uint32_t *class_id,
                                  uint32_t *action) {
-    if (!planner || !percept || !action)
-        return RLVC_E_NULL;
-    if (!is_percept(planner, percept))
-        return RLVC_E_RANGE;
+    rlvc_planner *planner;
+    uint32_t node = 0;
+    const rlvc_status status = available(agent, percept, &planner);
+    if (status != RLVC_OK)
+        return status;
     const rlvc_trial *best = rlvc_planner_best(planner);
-    *action = best ? rlvc_small_tree_act(&best->tree, percept) : 0;
+    if (best)
+        node = rlvc_small_tree_leaf(&best->tree, percept);
+    if (class_id)
+        *class_id = best ? rlvc_small_tree_class(&best->tree, node) : 0;
+    if (action)
+        *action = best ? best->tree.node[node].action : 0;
     return RLVC_OK;
+}
+
+void rlvc_planner_view(rlvc_agent *agent, rlvc_learnt *learnt) {
+    rlvc_planner *planner = (rlvc_planner *)(void *)agent;
+    rlvc_small_tree nothing;
+    const rlvc_trial *best = rlvc_planner_best(planner);
+    rlvc_small_tree_constant(&nothing, 0);
+    if (!planner->busy)
+        rlvc_small_tree_grow(best ? &best->tree : &nothing, &planner->tree, planner->tree_action);
+    memset(learnt, 0, sizeof *learnt);
+    learnt->domain = &planner->domain;
+    learnt->tree = &planner->tree;
+    learnt->policy = planner->tree_action;
+    learnt->busy = &planner->busy;
+    learnt->actions = planner->config.actions;
 }
 
 /* Was anything learnt? Where all policies of late are equally good there is nothing to predict
@@ -323,8 +333,22 @@ static uint8_t verdict_of(const rlvc_planner *planner, const rlvc_trial *best) {
     return known ? RLVC_PLANNER_LEARNT : RLVC_PLANNER_NO_MODEL;
 }
 
-rlvc_status rlvc_planner_stats(const rlvc_planner *planner, rlvc_planner_statistics *statistics) {
-    if (!planner || !statistics)
+/* The same of an agent that is only looked at. */
+static rlvc_status constant_of(const rlvc_agent *agent, const rlvc_planner **planner) {
+    if (!agent)
+        return RLVC_E_NULL;
+    if (!rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
+    *planner = (const rlvc_planner *)(const void *)agent;
+    return (*planner)->busy ? RLVC_E_REENTERED : RLVC_OK;
+}
+
+rlvc_status rlvc_planner_stats(const rlvc_agent *agent, rlvc_planner_statistics *statistics) {
+    const rlvc_planner *planner;
+    const rlvc_status status = constant_of(agent, &planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!statistics)
         return RLVC_E_NULL;
     const rlvc_trial *best = rlvc_planner_best(planner);
     memset(statistics, 0, sizeof *statistics);
@@ -347,16 +371,31 @@ rlvc_status rlvc_planner_stats(const rlvc_planner *planner, rlvc_planner_statist
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_config_of(const rlvc_planner *planner, rlvc_planner_config *config) {
-    if (!planner || !config)
+rlvc_status rlvc_planner_summary(const rlvc_agent *agent, rlvc_statistics *statistics) {
+    const rlvc_planner *planner;
+    const rlvc_status status = constant_of(agent, &planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!statistics)
         return RLVC_E_NULL;
-    *config = planner->config;
+    const rlvc_trial *best = rlvc_planner_best(planner);
+    memset(statistics, 0, sizeof *statistics);
+    statistics->interactions = planner->experience.total;
+    for (uint32_t i = 0; i < planner->experience.count; i++)
+        statistics->stored +=
+            planner->experience.end[rlvc_experience_row(&planner->experience, i)] != RLVC_ROW_LAST;
+    statistics->step = planner->counter - planner->learning;
+    statistics->classes = best ? best->tree.leaves : 1u;
+    statistics->depth = best ? rlvc_small_tree_depth(&best->tree) : 0;
     return RLVC_OK;
 }
 
-rlvc_status rlvc_planner_node(const rlvc_planner *planner, uint32_t index,
-                              rlvc_planner_test *node) {
-    if (!planner || !node)
+rlvc_status rlvc_planner_node(const rlvc_agent *agent, uint32_t index, rlvc_planner_test *node) {
+    const rlvc_planner *planner;
+    const rlvc_status status = constant_of(agent, &planner);
+    if (status != RLVC_OK)
+        return status;
+    if (!node)
         return RLVC_E_NULL;
     const rlvc_trial *best = rlvc_planner_best(planner);
     if (index >= (best ? best->tree.nodes : 1u))

@@ -3,9 +3,12 @@
 #ifndef RLVC_SRC_PLANNER_STATE_H
 #define RLVC_SRC_PLANNER_STATE_H
 
+#include "../base/method.h"
+#include "../tree/tree.h"
 #include "archive.h"
 #include "search.h"
 #include "rlvc/planner.h"
+#include "rlvc/thresholds.h"
 
 #define RLVC_PLANNER_STARTS 32u /* first percepts that are remembered */
 
@@ -35,8 +38,12 @@ typedef struct rlvc_planning_cursor {
     uint8_t phase;
 } rlvc_planning_cursor;
 
-struct rlvc_planner {
-    rlvc_planner_config config;
+typedef struct rlvc_planner {
+    rlvc_config config; /* first: see ../base/method.h */
+    rlvc_domain domain;
+    rlvc_tree tree;       /* the learnt policy where it was last asked for, */
+    uint8_t *tree_action; /* [RLVC_PLANNER_LEAVES_MAX] and the actions of its classes */
+    uint32_t components;
     rlvc_experience experience;
     rlvc_row_sample sample;
     rlvc_dynamics model[RLVC_ROLLOUT_MODELS];
@@ -74,7 +81,23 @@ struct rlvc_planner {
     uint8_t open;     /* an episode is under way */
     uint8_t due;      /* an episode ended since the last step of learning */
     uint8_t learning; /* a step is under way */
-};
+    uint8_t busy;     /* a callback is being called */
+} rlvc_planner;
+
+static inline uint32_t rlvc_planner_components(const rlvc_domain *domain) {
+    return domain->percept_bytes / RLVC_THRESHOLDS_PERCEPT_BYTES(1);
+}
+
+/* The planner that an agent is.
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_MISMATCH: it is none; RLVC_E_REENTERED. O(1). */
+static inline rlvc_status rlvc_planner_of(rlvc_agent *agent, rlvc_planner **planner) {
+    if (!agent)
+        return RLVC_E_NULL;
+    if (!rlvc_agent_plans(agent))
+        return RLVC_E_MISMATCH;
+    *planner = (rlvc_planner *)(void *)agent;
+    return (*planner)->busy ? RLVC_E_REENTERED : RLVC_OK;
+}
 
 uint32_t rlvc_planner_horizon(const rlvc_planner *planner);
 

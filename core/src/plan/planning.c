@@ -96,7 +96,7 @@ static uint32_t starts_known(const rlvc_planner *planner) {
 static void renew_commons(rlvc_planner *planner) {
     planner->commons = starts_known(planner);
     memcpy(planner->common, planner->start,
-           (size_t)planner->commons * planner->config.components * sizeof(float));
+           (size_t)planner->commons * planner->components * sizeof(float));
 }
 
 static uint32_t fit_model(rlvc_planner *planner, uint32_t budget) {
@@ -135,7 +135,7 @@ static int mean_step(rlvc_planner *planner, const rlvc_small_tree *tree) {
     rlvc_planning_cursor *planning = &planner->planning;
     rlvc_rollout_input in = rollout_input(planner, 1u, 1);
     if (!planning->rolling) {
-        const float *start = planner->common + (size_t)planning->at * planner->config.components;
+        const float *start = planner->common + (size_t)planning->at * planner->components;
         rlvc_rollout_begin(&planning->rollout, &in, start, planning->at);
         planning->rolling = 1;
     }
@@ -191,7 +191,7 @@ static uint32_t promise(rlvc_planner *planner) {
 
 /* Puts up to `most` first percepts, from a random one on, into the starts of the search. */
 static uint32_t first_starts(rlvc_planner *planner, rlvc_rng *rng, uint32_t most) {
-    uint32_t d = planner->config.components, known = starts_known(planner);
+    uint32_t d = planner->components, known = starts_known(planner);
     uint32_t count = known < most ? known : most, from = rlvc_rng_below(rng, known);
     for (uint32_t i = 0; i < count; i++)
         memcpy(planner->search_start + (size_t)i * d,
@@ -201,7 +201,7 @@ static uint32_t first_starts(rlvc_planner *planner, rlvc_rng *rng, uint32_t most
 
 static uint32_t ring_starts(rlvc_planner *planner, rlvc_rng *rng, uint32_t from) {
     const rlvc_experience *experience = &planner->experience;
-    uint32_t d = planner->config.components, most = from + SEARCH_STARTS_FIRST;
+    uint32_t d = planner->components, most = from + SEARCH_STARTS_FIRST;
     for (; from < most; from++) {
         uint32_t row = rlvc_experience_row(experience, rlvc_rng_below(rng, experience->count));
         memcpy(planner->search_start + (size_t)from * d, rlvc_experience_percept(experience, row),
@@ -211,7 +211,7 @@ static uint32_t ring_starts(rlvc_planner *planner, rlvc_rng *rng, uint32_t from)
 }
 
 static void begin_search(rlvc_planner *planner, const rlvc_small_tree *tree, uint32_t stream) {
-    const rlvc_planner_config *config = &planner->config;
+    const rlvc_config *config = &planner->config;
     rlvc_search_input in;
     rlvc_rng rng;
     int explore = planner->planning.phase == EXPLORE;
@@ -302,7 +302,7 @@ static uint32_t mark_cells(rlvc_planner *planner) {
         enter(planner, EXPLORE);
         search_from_nothing(planner, 0);
     }
-    return rlvc_cells_pairs(planner->config.components);
+    return rlvc_cells_pairs(planner->components);
 }
 
 static uint32_t explore(rlvc_planner *planner, uint32_t budget) {

@@ -6,6 +6,8 @@
 
 #include "../base/assert.h"
 #include "moves.h"
+#include "rlvc/thresholds.h"
+#include <string.h>
 
 #define MIXED 0xffffu
 
@@ -15,6 +17,48 @@ void rlvc_small_tree_constant(rlvc_small_tree *tree, uint32_t action) {
     tree->node[0].child = 0;
     tree->node[0].action = (uint8_t)action;
     tree->nodes = tree->leaves = 1;
+}
+
+/* The test whose child a node is. */
+static uint32_t parent_of(const rlvc_small_tree *tree, uint32_t child) {
+    uint32_t k = 0;
+    while (tree->node[k].component == RLVC_SMALL_LEAF || tree->node[k].child != child)
+        k++;
+    return k;
+}
+
+uint32_t rlvc_small_tree_class(const rlvc_small_tree *tree, uint32_t leaf) {
+    while (leaf % 2u == 1u)
+        leaf = parent_of(tree, leaf);
+    return leaf / 2u;
+}
+
+uint32_t rlvc_small_tree_depth(const rlvc_small_tree *tree) {
+    uint8_t depth[RLVC_SMALL_NODES_MAX] = {0};
+    uint32_t most = 0;
+    for (uint32_t k = 0; k < tree->nodes; k++) {
+        if (tree->node[k].component != RLVC_SMALL_LEAF)
+            depth[tree->node[k].child] = depth[tree->node[k].child + 1u] = (uint8_t)(depth[k] + 1u);
+        if (depth[k] > most)
+            most = depth[k];
+    }
+    return most;
+}
+
+void rlvc_small_tree_grow(const rlvc_small_tree *from, rlvc_tree *tree, uint8_t *action) {
+    rlvc_tree_clear(tree);
+    for (uint32_t child = 1; child < from->nodes; child += 2u) {
+        const uint32_t test = parent_of(from, child);
+        const rlvc_small_node *node = from->node + test;
+        const rlvc_threshold feature = {node->cut, 0.0f, node->component, 0};
+        rlvc_split about;
+        memset(&about, 0, sizeof about);
+        about.class_id = rlvc_tree_class(tree, test);
+        rlvc_tree_grow(tree, test, &about, &feature);
+    }
+    for (uint32_t k = 0; k < from->nodes; k++)
+        if (from->node[k].component == RLVC_SMALL_LEAF)
+            action[rlvc_tree_class(tree, k)] = from->node[k].action;
 }
 
 int rlvc_small_tree_compact(const rlvc_small_node *node, uint32_t nodes, uint32_t leaves_max,

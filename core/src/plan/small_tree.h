@@ -7,7 +7,7 @@
 #ifndef RLVC_SRC_SMALL_TREE_H
 #define RLVC_SRC_SMALL_TREE_H
 
-#include <stdint.h>
+#include "../tree/tree.h"
 
 #define RLVC_SMALL_LEAVES_MAX 16u
 #define RLVC_SMALL_NODES_MAX (2u * RLVC_SMALL_LEAVES_MAX - 1u)
@@ -40,6 +40,17 @@ static inline uint32_t rlvc_small_tree_leaf(const rlvc_small_tree *tree, const f
 static inline uint32_t rlvc_small_tree_act(const rlvc_small_tree *tree, const float *percept) {
     return tree->node[rlvc_small_tree_leaf(tree, percept)].action;
 }
+
+/* The class of a leaf: of percepts that fail a test's node it is that of the node, of those that
+ * pass the j-th test j + 1. O(leaves^2). */
+uint32_t rlvc_small_tree_class(const rlvc_small_tree *tree, uint32_t leaf);
+
+/* Tests on the longest path. O(nodes). */
+uint32_t rlvc_small_tree_depth(const rlvc_small_tree *tree);
+
+/* Makes the same tree with features of rlvc/thresholds.h, which has room for its leaves, and writes
+ * the action of each class. O(leaves^2). */
+void rlvc_small_tree_grow(const rlvc_small_tree *from, rlvc_tree *tree, uint8_t *action);
 
 /* Copies what can be reached from node[0], without tests whose sides act alike. Children must come
  * after their parents. @return 1; or 0: it has more than leaves_max leaves, and *tree is undefined.

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The policy that a planner has learnt, as a policy by itself: see rlvc/planner.h.
+/* The policy that a planner has learnt, as a policy by itself: see rlvc/policy.h and
+ * rlvc/planner.h.
  *
  * A small tree has the layout of a tree of classes already: test j's children are nodes 2j + 1 and
  * 2j + 2, and the leaf that it splits is the one that the parent of the tested node had. */
@@ -8,6 +9,8 @@
 #include "policy.h"
 
 #include "../base/assert.h"
+#include "../base/method.h"
+#include "../plan/small_tree.h"
 #include "rlvc/planner.h"
 #include "rlvc/thresholds.h"
 
@@ -59,26 +62,42 @@ static int is_tree(nodes *tree, uint32_t actions, const rlvc_domain *thresholds)
     return 2u * leaves == tree->count + 1u;
 }
 
-/* Splits leaves in the order of the tests, and gives each leaf its action. */
-static void copy_tree(const nodes *tree, rlvc_policy *policy) {
-    rlvc_tree_clear(&policy->tree);
-    for (uint32_t j = 0; 2u * j + 1u < tree->count; j++) {
-        const rlvc_threshold feature = feature_of(tree->node + tree->tested[j]);
-        rlvc_split about;
-        memset(&about, 0, sizeof about);
-        about.class_id = rlvc_tree_class(&policy->tree, tree->tested[j]);
-        rlvc_tree_grow(&policy->tree, tree->tested[j], &about, &feature);
+/* Makes an empty policy in a block.
+ * @return RLVC_OK; as of rlvc_arena_check. */
+static rlvc_status make(const rlvc_domain *domain, uint32_t actions, void *memory, size_t bytes,
+                        rlvc_policy **policy) {
+    rlvc_arena arena = {(unsigned char *)memory, 0};
+    const rlvc_status status = rlvc_arena_check(memory, bytes, RLVC_PLANNER_POLICY_BYTES);
+    if (status != RLVC_OK)
+        return status;
+    const rlvc_domain copied = *domain; /* it may lie in the block */
+    rlvc_policy *made = memory;
+    RLVC_UNPOISON(memory, RLVC_PLANNER_POLICY_BYTES);
+    memset(made, 0, sizeof *made);
+    carve(made, &arena);
+    RLVC_ASSERT(arena.used <= RLVC_PLANNER_POLICY_BYTES);
+    made->domain = copied;
+    made->actions = actions;
+    *policy = made;
+    return RLVC_OK;
+}
+
+static void copy_nodes(const nodes *from, rlvc_small_tree *tree) {
+    for (uint32_t k = 0; k < from->count; k++) {
+        tree->node[k].cut = from->node[k].cutpoint;
+        tree->node[k].component = from->node[k].component;
+        tree->node[k].child = from->node[k].child;
+        tree->node[k].action = from->node[k].action;
     }
-    for (uint32_t k = 0; k < tree->count; k++)
-        if (tree->node[k].component == RLVC_PLANNER_LEAF)
-            policy->action[rlvc_tree_class(&policy->tree, k)] = tree->node[k].action;
+    tree->nodes = (uint8_t)from->count;
+    tree->leaves = (uint8_t)(from->count / 2u + 1u);
 }
 
 rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint32_t count, uint32_t actions,
                                    const rlvc_domain *thresholds, void *memory, size_t bytes,
                                    rlvc_policy **policy) {
     nodes tree = {node, count, {0}};
-    rlvc_arena arena = {(unsigned char *)memory, 0};
+    rlvc_small_tree copied;
     if (!policy)
         return RLVC_E_NULL;
     *policy = NULL;
@@ -89,36 +108,33 @@ rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint32_t count
     if (actions > RLVC_PLANNER_ACTIONS_MAX || count > NODES_MAX ||
         !is_tree(&tree, actions, thresholds))
         return RLVC_E_RANGE;
-    rlvc_status status = rlvc_arena_check(memory, bytes, RLVC_PLANNER_POLICY_BYTES);
-    if (status != RLVC_OK)
-        return status;
-    const rlvc_domain copied = *thresholds; /* it may lie in the block */
-    rlvc_policy *made = memory;
-    RLVC_UNPOISON(memory, RLVC_PLANNER_POLICY_BYTES);
-    memset(made, 0, sizeof *made);
-    carve(made, &arena);
-    RLVC_ASSERT(arena.used <= RLVC_PLANNER_POLICY_BYTES);
-    made->domain = copied;
-    made->actions = actions;
-    copy_tree(&tree, made);
-    *policy = made;
-    return RLVC_OK;
+    copy_nodes(&tree, &copied); /* it may lie in the block */
+    const rlvc_status status = make(thresholds, actions, memory, bytes, policy);
+    if (status == RLVC_OK)
+        rlvc_small_tree_grow(&copied, &(*policy)->tree, (*policy)->action);
+    return status;
 }
 
-rlvc_status rlvc_planner_policy(const rlvc_planner *planner, const rlvc_domain *thresholds,
-                                void *memory, size_t bytes, rlvc_policy **policy) {
-    rlvc_planner_test node[NODES_MAX];
-    rlvc_planner_config config;
-    uint32_t count = 0;
-    if (!policy)
-        return RLVC_E_NULL;
-    *policy = NULL;
-    if (!planner || !thresholds)
-        return RLVC_E_NULL;
-    (void)rlvc_planner_config_of(planner, &config);
-    if (thresholds->percept_bytes != RLVC_THRESHOLDS_PERCEPT_BYTES(config.components))
-        return RLVC_E_MISMATCH;
-    while (rlvc_planner_node(planner, count, node + count) == RLVC_OK)
-        count++;
-    return rlvc_planner_policy_of(node, count, config.actions, thresholds, memory, bytes, policy);
+rlvc_status rlvc_policy_of_planner(rlvc_agent *agent, void *memory, size_t bytes,
+                                   rlvc_policy **policy, rlvc_policy_info *info) {
+    rlvc_learnt learnt;
+    rlvc_view(agent, &learnt);
+    if (*learnt.busy)
+        return RLVC_E_REENTERED;
+    const rlvc_tree *tree = learnt.tree;
+    const rlvc_status status = make(learnt.domain, learnt.actions, memory, bytes, policy);
+    if (status != RLVC_OK)
+        return status;
+    rlvc_tree_clear(&(*policy)->tree);
+    for (uint32_t j = 0; j + 1u < tree->classes; j++)
+        rlvc_tree_grow(&(*policy)->tree, tree->split[j].node, &tree->split[j].about,
+                       rlvc_tree_feature(tree, j));
+    memcpy((*policy)->action, learnt.policy, tree->classes);
+    if (info) {
+        memset(info, 0, sizeof *info);
+        info->classes = info->collapsed = info->leaves = tree->classes;
+        info->bytes = RLVC_PLANNER_POLICY_BYTES;
+        info->as_agent = 1;
+    }
+    return RLVC_OK;
 }

@@ -19,6 +19,7 @@
 #include "policy.h"
 
 #include "rlvc/min_tree.h"
+#include "rlvc/planner.h"
 
 #include "../export/collapse.h"
 #include "../export/export_tree.h"
@@ -322,8 +323,13 @@ static rlvc_status choose(maker *m, rlvc_policy_info *info) {
 /* ------------------------------------------------------------------ for the caller */
 
 rlvc_status rlvc_policy_default(const rlvc_agent *agent, rlvc_policy_config *config) {
+    static const rlvc_policy_config of_planner = {.percepts = 1, .entries = 2, .effort = 1};
     if (!agent || !config)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent)) {
+        *config = of_planner;
+        return RLVC_OK;
+    }
     if (agent->busy)
         return RLVC_E_REENTERED;
     memset(config, 0, sizeof *config);
@@ -339,6 +345,10 @@ rlvc_status rlvc_policy_size(const rlvc_agent *agent, const rlvc_policy_config *
     maker m;
     if (!agent || !config || !bytes)
         return RLVC_E_NULL;
+    if (rlvc_agent_plans(agent)) {
+        *bytes = RLVC_PLANNER_POLICY_BYTES;
+        return RLVC_OK;
+    }
     *bytes = 0;
     if (agent->busy)
         return RLVC_E_REENTERED;
@@ -354,6 +364,8 @@ rlvc_status rlvc_policy_make(rlvc_agent *agent, const rlvc_policy_config *config
         return RLVC_E_NULL;
     *policy = NULL;
     rlvc_status status = rlvc_policy_size(agent, config, &needed);
+    if (status == RLVC_OK && rlvc_agent_plans(agent))
+        return rlvc_policy_of_planner(agent, memory, bytes, policy, info);
     if (status == RLVC_OK)
         status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)

@@ -14,4 +14,9 @@ struct rlvc_policy {
     uint8_t busy; /* a callback is being called */
 };
 
+/* rlvc_policy_make of an agent that is a planner, with *policy null: its block takes
+ * RLVC_PLANNER_POLICY_BYTES. */
+rlvc_status rlvc_policy_of_planner(rlvc_agent *agent, void *memory, size_t bytes,
+                                   rlvc_policy **policy, rlvc_policy_info *info);
+
 #endif

@@ -116,7 +116,7 @@ static int small_tree_is_sound(const rlvc_planner *planner, const rlvc_small_tre
             return 0;
         if (node->component == RLVC_SMALL_LEAF)
             continue;
-        if (node->component >= planner->config.components || node->child != 2u * tests + 1u ||
+        if (node->component >= planner->components || node->child != 2u * tests + 1u ||
             node->child <= k)
             return 0;
         tests++;
@@ -172,14 +172,14 @@ static int counters_are_sound(const rlvc_planner *planner) {
 }
 
 static int starts_are_sound(const rlvc_planner *planner) {
-    uint32_t components = planner->config.components;
+    uint32_t components = planner->components;
     uint32_t count = RLVC_PLANNER_STARTS * components;
     return are_numbers(planner->start, count, RLVC_PLANNER_NUMBER_MAX) &&
            are_numbers(planner->common, count, RLVC_PLANNER_NUMBER_MAX) &&
            are_numbers(planner->now, components, RLVC_PLANNER_NUMBER_MAX);
 }
 
-int rlvc_planner_check(const rlvc_planner *planner) {
+int rlvc_planner_is_sound(const rlvc_planner *planner) {
     return counters_are_sound(planner) && order_is_sound(planner) && experience_is_sound(planner) &&
            (planner->fitted == 0 || models_are_sound(planner)) && archive_is_sound(planner) &&
            acting_is_sound(planner, &planner->acting) && acting_is_sound(planner, &planner->next) &&

@@ -14,6 +14,6 @@ int rlvc_planner_check_terms(const rlvc_dynamics *dynamics, const rlvc_model_tre
 int rlvc_planner_check_ending(const rlvc_ending *ending, uint32_t k, uint32_t components);
 
 /* All the rest. O(bytes). */
-int rlvc_planner_check(const rlvc_planner *planner);
+int rlvc_planner_is_sound(const rlvc_planner *planner);
 
 #endif

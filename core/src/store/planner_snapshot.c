@@ -8,14 +8,14 @@
 #include "rlvc/float_rules.h"
 
 #include "planner_check.h"
-#include "two_slot.h"
+#include "planner_snapshot.h"
 
 #include <string.h>
 
 /* ------------------------------------------------------------------ the parts */
 
-static void pass_config(rlvc_stream *s, rlvc_planner_config *config) {
-    rlvc_stream_u32(s, &config->components);
+static void pass_config(rlvc_stream *s, uint32_t *components, rlvc_config *config) {
+    rlvc_stream_u32(s, components);
     rlvc_stream_u32(s, &config->actions);
     rlvc_stream_u32(s, &config->capacity);
     rlvc_stream_u32(s, &config->sample);
@@ -194,7 +194,7 @@ static int pass_acting(rlvc_stream *s, rlvc_acting *acting) {
 
 /* All that comes after the config. @return 0 if what was loaded does not fit. */
 static int pass_state(rlvc_stream *s, rlvc_planner *planner) {
-    uint32_t components = planner->config.components;
+    uint32_t components = planner->components;
     pass_counters(s, planner);
     if (!pass_experience(s, &planner->experience) ||
         (planner->fitted > 0 && !pass_models(s, planner)) || !pass_archive(s, &planner->archive) ||
@@ -213,26 +213,26 @@ static int pass_state(rlvc_stream *s, rlvc_planner *planner) {
 #define TREE_BYTES (1u + RLVC_SMALL_NODES_MAX * 8u)
 
 /* The most that a snapshot can take. 64 bits hold it for every config. */
-static uint64_t largest(const rlvc_planner_config *config) {
-    uint64_t d = config->components, unit = RLVC_STORE_UNIT;
-    uint64_t leaf = 28u + 4u * (uint64_t)rlvc_basis_full(config->components, config->actions);
+static uint64_t largest(const rlvc_config *config, uint32_t components) {
+    uint64_t d = components, unit = RLVC_STORE_UNIT;
+    uint64_t leaf = 28u + 4u * (uint64_t)rlvc_basis_full(components, config->actions);
     uint64_t size = FIXED_BYTES + (uint64_t)config->capacity * (4u * d + 6u);
     size += RLVC_ROLLOUT_MODELS * (d + 1u) * (12u + config->model_leaves * leaf);
     size += RLVC_ARCHIVE_POLICIES * (TREE_BYTES + 21u + RLVC_ARCHIVE_EPISODES * (8u + 4u * d));
     size += 2u * TREE_BYTES + (2u * RLVC_PLANNER_STARTS + 11u) * 4u * d;
-    size += (uint64_t)rlvc_cells_pairs(config->components) * RLVC_CELLS_BYTES;
+    size += (uint64_t)rlvc_cells_pairs(components) * RLVC_CELLS_BYTES;
     return (size + unit - 1u) / unit * unit;
 }
 
-rlvc_status rlvc_planner_snapshot_size(const rlvc_planner_config *config, uint32_t *bytes) {
-    size_t block;
+rlvc_status rlvc_planner_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
+                                       uint32_t *bytes) {
     if (!bytes)
         return RLVC_E_NULL;
     *bytes = 0;
-    rlvc_status status = rlvc_planner_size(config, &block);
+    rlvc_status status = rlvc_config_status(config, domain);
     if (status != RLVC_OK)
         return status;
-    uint64_t size = largest(config);
+    uint64_t size = largest(config, rlvc_planner_components(domain));
     if (size > RLVC_SLOT_BYTES_MAX)
         return RLVC_E_MEMORY;
     *bytes = (uint32_t)size;
@@ -242,20 +242,14 @@ rlvc_status rlvc_planner_snapshot_size(const rlvc_planner_config *config, uint32
 /* ------------------------------------------------------------------ saving and loading */
 
 static void pass_planner(rlvc_stream *s, rlvc_planner *planner) {
-    pass_config(s, &planner->config);
+    pass_config(s, &planner->components, &planner->config);
     (void)pass_state(s, planner);
 }
 
-rlvc_status rlvc_planner_save(rlvc_planner *planner, const rlvc_store *store) {
+static rlvc_status save(rlvc_planner *planner, const rlvc_store *store) {
     rlvc_two_slot slot;
     rlvc_stream stream;
-    if (!planner)
-        return RLVC_E_NULL;
-    rlvc_status status = rlvc_two_slot_check(store, largest(&planner->config));
-    if (status == RLVC_OK && planner->learning)
-        status = RLVC_E_BUSY;
-    if (status == RLVC_OK)
-        status = rlvc_two_slot_next(store, &slot);
+    rlvc_status status = rlvc_two_slot_next(store, &slot);
     if (status != RLVC_OK)
         return status;
     rlvc_stream_count(&stream);
@@ -267,17 +261,30 @@ rlvc_status rlvc_planner_save(rlvc_planner *planner, const rlvc_store *store) {
     return rlvc_stream_end(&stream);
 }
 
-static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
-                               rlvc_planner_config *config) {
-    rlvc_two_slot slot;
-    memset(config, 0, sizeof *config);
-    rlvc_status status = rlvc_two_slot_newest(store, &slot);
+rlvc_status rlvc_planner_save(rlvc_agent *agent, const rlvc_store *store) {
+    rlvc_planner *planner;
+    rlvc_status status = rlvc_planner_of(agent, &planner);
+    if (status == RLVC_OK)
+        status = rlvc_two_slot_check(store, largest(&planner->config, planner->components));
+    if (status == RLVC_OK && planner->learning)
+        status = RLVC_E_BUSY;
     if (status != RLVC_OK)
         return status;
-    if (slot.version != RLVC_PLANNER_SNAPSHOT_VERSION)
+    planner->busy = 1;
+    status = save(planner, store);
+    planner->busy = 0;
+    return status;
+}
+
+rlvc_status rlvc_planner_open_slot(const rlvc_store *store, const rlvc_two_slot *slot,
+                                   rlvc_stream *stream, rlvc_snapshot_info *info) {
+    uint32_t components = 0;
+    if (slot->version != RLVC_PLANNER_SNAPSHOT_VERSION)
         return RLVC_E_VERSION;
-    rlvc_stream_load(stream, store, &slot);
-    pass_config(stream, config);
+    rlvc_stream_load(stream, store, slot);
+    pass_config(stream, &components, &info->config);
+    info->percept_bytes = RLVC_THRESHOLDS_PERCEPT_BYTES(components);
+    info->feature_bytes = RLVC_THRESHOLDS_FEATURE_BYTES;
     return stream->status;
 }
 
@@ -291,44 +298,46 @@ static rlvc_status load(rlvc_stream *stream, rlvc_planner *planner) {
     rlvc_status status = rlvc_stream_end(stream);
     if (status != RLVC_OK)
         return status;
-    return rlvc_planner_check(planner) ? RLVC_OK : RLVC_E_DAMAGED;
+    return rlvc_planner_is_sound(planner) ? RLVC_OK : RLVC_E_DAMAGED;
 }
 
-rlvc_status rlvc_planner_load(const rlvc_planner_config *config, void *memory, size_t bytes,
-                              const rlvc_store *store, rlvc_planner **planner) {
+rlvc_status rlvc_planner_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
+                              size_t bytes, const rlvc_store *store, rlvc_agent **agent) {
     uint32_t min_bytes = 0;
-    rlvc_planner_config saved;
+    rlvc_snapshot_info info;
+    rlvc_two_slot slot;
     rlvc_stream stream;
-    rlvc_planner *made;
-    if (!planner)
+    rlvc_agent *made;
+    if (!agent)
         return RLVC_E_NULL;
-    *planner = NULL;
-    rlvc_status status = rlvc_planner_snapshot_size(config, &min_bytes);
+    *agent = NULL;
+    rlvc_status status = rlvc_planner_snapshot_size(config, domain, &min_bytes);
     if (status == RLVC_OK)
         status = rlvc_two_slot_check(store, min_bytes);
     if (status == RLVC_OK)
-        status = open_newest(store, &stream, &saved);
-    if (status == RLVC_OK && memcmp(&saved, config, sizeof saved) != 0)
+        status = rlvc_two_slot_newest(store, &slot);
+    if (status != RLVC_OK)
+        return status;
+    info.config = *config;
+    status = rlvc_planner_open_slot(store, &slot, &stream, &info);
+    if (status == RLVC_OK && (info.percept_bytes != domain->percept_bytes ||
+                              memcmp(&info.config, config, RLVC_CONFIG_BYTES) != 0))
         status = RLVC_E_MISMATCH;
     if (status == RLVC_OK)
-        status = rlvc_planner_init(config, memory, bytes, &made);
+        status = rlvc_planner_init(config, domain, memory, bytes, &made);
     if (status == RLVC_OK)
-        status = load(&stream, made);
+        status = load(&stream, (rlvc_planner *)(void *)made);
     if (status == RLVC_OK)
-        *planner = made;
+        *agent = made;
     return status;
 }
 
-rlvc_status rlvc_planner_snapshot_peek(const rlvc_store *store, rlvc_planner_config *config) {
-    rlvc_stream stream;
-    if (!config)
-        return RLVC_E_NULL;
-    memset(config, 0, sizeof *config);
-    rlvc_status status = rlvc_two_slot_check(store, RLVC_STORE_UNIT);
-    if (status != RLVC_OK)
-        return status;
-    status = open_newest(store, &stream, config);
-    if (status != RLVC_OK)
-        memset(config, 0, sizeof *config);
+rlvc_status rlvc_planner_check(rlvc_agent *agent) {
+    rlvc_planner *planner;
+    rlvc_status status = rlvc_planner_of(agent, &planner);
+    if (status == RLVC_OK && planner->learning)
+        status = RLVC_E_BUSY;
+    if (status == RLVC_OK && !rlvc_planner_is_sound(planner))
+        status = RLVC_E_MEMORY;
     return status;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a snapshot holds, in order: see SPEC.md.
+/* What a snapshot of an agent of classes holds, in order: see SPEC.md.
  *
  * Each part is one function that passes its fields through a stream, whichever way that goes. Where
  * what is loaded decides how much there is to come, it is checked at once; the rest is checked at
@@ -8,8 +8,9 @@
 
 #include "rlvc/snapshot.h"
 
-#include "../agent/config.h"
+#include "../agent/state.h"
 #include "cursor_marks.h"
+#include "planner_snapshot.h"
 #include "two_slot.h"
 #include <string.h>
 
@@ -225,8 +226,8 @@ static uint64_t largest(const rlvc_config *config, const rlvc_domain *domain) {
     return (size + unit - 1u) / unit * unit;
 }
 
-rlvc_status rlvc_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
-                               uint32_t *bytes) {
+rlvc_status rlvc_classes_snapshot_size(const rlvc_config *config, const rlvc_domain *domain,
+                                       uint32_t *bytes) {
     if (!bytes)
         return RLVC_E_NULL;
     *bytes = 0;
@@ -257,7 +258,7 @@ static rlvc_status save(rlvc_agent *agent, const rlvc_store *store) {
     return rlvc_stream_end(&stream);
 }
 
-rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store) {
+rlvc_status rlvc_classes_save(rlvc_agent *agent, const rlvc_store *store) {
     if (!agent)
         return RLVC_E_NULL;
     if (agent->busy)
@@ -273,22 +274,14 @@ rlvc_status rlvc_save(rlvc_agent *agent, const rlvc_store *store) {
 
 /* ------------------------------------------------------------------ loading */
 
-static rlvc_status open_newest(const rlvc_store *store, rlvc_stream *stream,
-                               rlvc_snapshot_info *info) {
-    rlvc_two_slot slot;
-    rlvc_status status = rlvc_two_slot_newest(store, &slot);
-    if (status != RLVC_OK)
-        return status;
-    info->version = slot.version;
-    info->sequence = slot.sequence;
-    info->slot = slot.index;
-    info->bytes = slot.bytes;
-    if (slot.version != RLVC_SNAPSHOT_VERSION)
+/* Opens a snapshot. Its config takes the place of info's. */
+static rlvc_status open_slot(const rlvc_store *store, const rlvc_two_slot *slot,
+                             rlvc_stream *stream, rlvc_snapshot_info *info) {
+    if (slot->version != RLVC_SNAPSHOT_VERSION)
         return RLVC_E_VERSION;
-    rlvc_stream_load(stream, store, &slot);
+    rlvc_stream_load(stream, store, slot);
     /* What is read is passed by value first. */
     info->percept_bytes = info->feature_bytes = 0;
-    memset(&info->config, 0, sizeof info->config);
     int known = pass_identity(stream, &info->percept_bytes, &info->feature_bytes, &info->config);
     if (stream->status != RLVC_OK)
         return stream->status;
@@ -337,7 +330,7 @@ static int counters_are_sound(const rlvc_agent *agent) {
 /* Does everything that was loaded hold together? */
 static int is_sound(rlvc_agent *agent) {
     return flags_are_sound(&agent->replay) && values_are_sound(agent) &&
-           counters_are_sound(agent) && rlvc_agent_check(agent) == RLVC_OK &&
+           counters_are_sound(agent) && rlvc_classes_check(agent) == RLVC_OK &&
            rlvc_cursor_marks_check(agent);
 }
 
@@ -361,27 +354,32 @@ static rlvc_status load(rlvc_stream *stream, rlvc_agent *agent) {
     return status == RLVC_E_CALLBACK ? rlvc_learn_abandon(agent) : status;
 }
 
-rlvc_status rlvc_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
-                      size_t bytes, const rlvc_store *store, rlvc_agent **agent) {
+rlvc_status rlvc_classes_load(const rlvc_config *config, const rlvc_domain *domain, void *memory,
+                              size_t bytes, const rlvc_store *store, rlvc_agent **agent) {
     if (!agent)
         return RLVC_E_NULL;
     *agent = NULL;
     uint32_t min_bytes = 0;
-    rlvc_status status = rlvc_snapshot_size(config, domain, &min_bytes);
+    rlvc_status status = rlvc_classes_snapshot_size(config, domain, &min_bytes);
     if (status == RLVC_OK)
         status = memory ? rlvc_two_slot_check(store, min_bytes) : RLVC_E_NULL;
     rlvc_stream stream;
+    rlvc_two_slot slot;
     rlvc_snapshot_info info;
     if (status == RLVC_OK)
-        status = open_newest(store, &stream, &info);
+        status = rlvc_two_slot_newest(store, &slot);
+    if (status != RLVC_OK)
+        return status;
+    info.config = *config;
+    status = open_slot(store, &slot, &stream, &info);
     if (status != RLVC_OK)
         return status;
     if (info.percept_bytes != domain->percept_bytes ||
         info.feature_bytes != domain->feature_bytes ||
-        memcmp(&info.config, config, sizeof *config) != 0)
+        memcmp(&info.config, config, RLVC_CONFIG_BYTES) != 0)
         return RLVC_E_MISMATCH;
     rlvc_agent *made;
-    status = rlvc_agent_init(config, domain, memory, bytes, &made);
+    status = rlvc_classes_init(config, domain, memory, bytes, &made);
     if (status != RLVC_OK)
         return status;
     status = load(&stream, made);
@@ -395,7 +393,17 @@ rlvc_status rlvc_snapshot_peek(const rlvc_store *store, rlvc_snapshot_info *info
         return RLVC_E_NULL;
     rlvc_status status = rlvc_two_slot_check(store, RLVC_STORE_UNIT);
     rlvc_stream stream;
+    rlvc_two_slot slot;
     if (status == RLVC_OK)
-        status = open_newest(store, &stream, info);
-    return status;
+        status = rlvc_two_slot_newest(store, &slot);
+    if (status != RLVC_OK)
+        return status;
+    info->version = slot.version;
+    info->sequence = slot.sequence;
+    info->slot = slot.index;
+    info->bytes = slot.bytes;
+    memset(&info->config, 0, sizeof info->config);
+    if (RLVC_HAS_PLANNER && slot.version == RLVC_PLANNER_SNAPSHOT_VERSION)
+        return rlvc_planner_open_slot(store, &slot, &stream, info);
+    return open_slot(store, &slot, &stream, info);
 }

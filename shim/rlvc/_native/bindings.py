@@ -206,7 +206,7 @@ class Domain(c.Structure):
         ("candidates", DOMAIN_CANDIDATES), ("detect", DOMAIN_DETECT), ("oracle", DOMAIN_ORACLE),
         ("name", DOMAIN_NAME), ("check_percept", DOMAIN_CHECK_PERCEPT),
         ("check_feature", DOMAIN_CHECK_FEATURE), ("percept_words", c.c_uint32),
-        ("feature_words", c.c_uint32), ("feature_halves", c.c_uint32),
+        ("feature_words", c.c_uint32), ("feature_halves", c.c_uint32), ("method", c.c_void_p),
     ]
 
 
@@ -214,14 +214,16 @@ class Config(c.Structure):
     """``rlvc_config``."""
 
     _fields_ = [
-        ("actions", c.c_uint32), ("capacity", c.c_uint32), ("classes", c.c_uint32),
-        ("features_at_once", c.c_uint32), ("min_samples", c.c_uint32),
+        ("method", c.c_void_p), ("actions", c.c_uint32), ("capacity", c.c_uint32),
+        ("classes", c.c_uint32), ("features_at_once", c.c_uint32), ("min_samples", c.c_uint32),
         ("max_sweeps", c.c_uint32), ("seed", c.c_uint32), ("criterion", c.c_uint8),
         ("score", c.c_uint8), ("solver", c.c_uint8), ("continuing", c.c_uint8),
         ("successors", c.c_uint8), ("explore", c.c_uint8), ("dependence", c.c_uint8),
         ("reserved", c.c_uint8), ("discount", c.c_float), ("epsilon", c.c_float),
         ("alpha", c.c_float), ("alpha_known", c.c_float), ("tolerance", c.c_float),
-        ("learning_rate", c.c_float), ("smallest_effect", c.c_float),
+        ("learning_rate", c.c_float), ("smallest_effect", c.c_float), ("sample", c.c_uint32),
+        ("model_leaves", c.c_uint32), ("leaves", c.c_uint32), ("horizon", c.c_uint32),
+        ("random", c.c_uint32), ("candidates", c.c_uint32), ("patience", c.c_uint32),
     ]
 
 
@@ -438,17 +440,6 @@ class SnapshotInfo(c.Structure):
     ]
 
 
-class PlannerConfig(c.Structure):
-    """``rlvc_planner_config``."""
-
-    _fields_ = [
-        ("components", c.c_uint32), ("actions", c.c_uint32), ("capacity", c.c_uint32),
-        ("sample", c.c_uint32), ("model_leaves", c.c_uint32), ("leaves", c.c_uint32),
-        ("horizon", c.c_uint32), ("random", c.c_uint32), ("candidates", c.c_uint32),
-        ("patience", c.c_uint32), ("seed", c.c_uint32),
-    ]
-
-
 class PlannerTest(c.Structure):
     """``rlvc_planner_test``."""
 
@@ -660,7 +651,6 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_policy_info": PolicyInfo,
     "rlvc_store": Store,
     "rlvc_snapshot_info": SnapshotInfo,
-    "rlvc_planner_config": PlannerConfig,
     "rlvc_planner_test": PlannerTest,
     "rlvc_planner_statistics": PlannerStatistics,
     "rlvc_spatial": Spatial,
@@ -694,6 +684,7 @@ CORE: Functions = {
     "rlvc_begin": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_act": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_observe": (c.c_int, [c.c_void_p, Choice, c.c_float, c.c_void_p, c.c_uint8]),
+    "rlvc_budget_min": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_learn": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
     "rlvc_learn_abandon": (c.c_int, [c.c_void_p]),
     "rlvc_prune": (c.c_int, [c.c_void_p, c.c_float, c.c_float, c.c_void_p]),
@@ -747,27 +738,12 @@ CORE: Functions = {
         c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p,
     ]),
     "rlvc_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_default": (c.c_int, [c.c_void_p, c.c_uint32, c.c_uint32]),
-    "rlvc_planner_size": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_init": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
-    "rlvc_planner_begin": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_act": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_act_at": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
-    "rlvc_planner_observe": (c.c_int, [c.c_void_p, c.c_uint32, c.c_float, c.c_void_p, c.c_uint8]),
-    "rlvc_planner_learn": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
-    "rlvc_planner_budget_min": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_predict": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
-    "rlvc_planner_config_of": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_planner_node": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
-    "rlvc_planner_policy": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
     "rlvc_planner_policy_of": (c.c_int, [
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p,
     ]),
     "rlvc_planner_stats": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_snapshot_size": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_save": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_planner_load": (c.c_int, [c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
-    "rlvc_planner_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_spatial_default": (c.c_int, [
         c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.c_float,
     ]),
@@ -776,6 +752,7 @@ CORE: Functions = {
     "rlvc_spatial_nearest": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_default": (c.c_int, [c.c_void_p, c.c_uint32]),
     "rlvc_thresholds_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_thresholds_policy_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_check": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_thresholds_feature": (Threshold, [c.c_void_p]),
     "rlvc_version": (c.c_char_p, []),
@@ -784,9 +761,6 @@ CORE: Functions = {
         c.c_void_p, c.c_void_p, c.c_uint32, c.c_size_t, c.c_void_p, c.c_void_p, c.c_void_p,
     ]),
     "rlvc_shim_policy_act": (c.c_int, [
-        c.c_void_p, c.c_void_p, c.c_uint32, c.c_size_t, c.c_void_p, c.c_void_p,
-    ]),
-    "rlvc_shim_planner_predict": (c.c_int, [
         c.c_void_p, c.c_void_p, c.c_uint32, c.c_size_t, c.c_void_p, c.c_void_p,
     ]),
     "rlvc_shim_act": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),

@@ -137,6 +137,10 @@ call.rlvc_shim_python_init(
 )
 
 
+METHOD_CLASSES: int = c.addressof(c.c_char.in_dll(long_call, "rlvc_method_classes"))
+METHOD_PLANNER: int = c.addressof(c.c_char.in_dll(long_call, "rlvc_method_planner"))
+
+
 def status_text(status: int) -> str:
     """Return the library's description of a status."""
     return str(call.rlvc_status_text(status).decode())

@@ -4,33 +4,23 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
-from ..domains.domain import Domain, Percept
-from ..errors import Error, PerceptError, RangeError, ReenteredError, RewardError, SnapshotError
+from ..domains.bits import Bits
+from ..domains.domain import Domain
+from ..errors import RangeError
 from .batch import Batch, native_log
-from .config import Config
+from .config import Config, to_native
 from .handle import allocated
 from .inspect import Queries
 from .policy import Policy
 from .results import CHOICE, Choice, Progress
-from .snapshot import MemoryStore, read_file, write_file
 
-_SLICE = 1 << 20  # budget of a slice of learning, after which Ctrl-C is noticed: milliseconds
-
-_begin = _native.call.rlvc_begin
-_act = _native.call.rlvc_act
-_observe = _native.call.rlvc_observe
 _byref = ctypes.byref
-_new = tuple.__new__
-_NOTHING = object()
 
 
 class Agent(Queries):
@@ -68,38 +58,17 @@ class Agent(Queries):
     True
     """
 
-    def __init__(self, domain: Domain | int, config: Config | int, **changes: Any) -> None:
-        if "_address" in self.__dict__:
-            raise ReenteredError("the agent is initialized already")
-        self._make(domain, config, changes, None)
+    _slice = 1 << 20
+    _end_is_seen = False
+    _config_type = Config
 
-    def _make(self, *arguments: Any) -> None:
-        """Make the agent, and the struct through which C reads choices."""
-        super()._make(*arguments)
-        self._choice = _native.Choice()
-        self._choice_reference = _byref(self._choice)
-        self._chosen: object = _NOTHING  # the Choice that self._choice holds
+    @staticmethod
+    def _domain_of(domain: Domain | int) -> Domain:
+        return domain if isinstance(domain, Domain) else Bits(domain)
+
+    _to_native = staticmethod(to_native)
 
     # -------------------------------------------------------------- acting and observing
-
-    def begin(self, percept: Percept) -> None:
-        """Start an episode. An unfinished episode ends as if its last interaction had been truncated.
-
-        Parameters
-        ----------
-        percept : bytes or ndarray
-            The first percept, in a form that the domain's ``pack`` accepts. It is copied.
-
-        Raises
-        ------
-        PerceptError
-            The percept has the wrong size, dtype or shape.
-        BusyError
-            The replay buffer is full and in use by a learning step.
-        """
-        status = _begin(self._handle, self._pack(percept))
-        if status:
-            self._fail(status)
 
     def act(self) -> Choice:
         """Choose an action for the current percept: epsilon-greedy, in runs (section 4.2.1).
@@ -114,86 +83,7 @@ class Agent(Queries):
         OrderError
             There is no current percept: call :meth:`begin` first.
         """
-        choice = self._choice
-        self._chosen = _NOTHING  # should Ctrl-C come between the call and the next line
-        status = _act(self._handle, self._choice_reference)
-        if status:
-            self._fail(status)
-        chosen = self._chosen = _new(Choice, (choice.action, choice.exploited == 1))
-        return chosen
-
-    def observe(
-        self,
-        choice: Choice | tuple[int, bool] | int,
-        reward: float,
-        percept: Percept | None,
-        terminated: bool = False,
-        truncated: bool = False,
-    ) -> None:
-        """Store an interaction that started at the current percept.
-
-        Parameters
-        ----------
-        choice : Choice or int
-            The action taken: the result of :meth:`act`, or any other action.
-        reward : float
-            Finite, in [-1e12, 1e12].
-        percept : bytes, ndarray or None
-            s', the next current percept. May be None if ``terminated``.
-        terminated : bool
-            Whether the episode ended: no reward can follow.
-        truncated : bool
-            Whether the episode was cut short, for example by a time limit: s' still has a value.
-
-        Raises
-        ------
-        PerceptError
-            ``percept`` has the wrong size, dtype or shape.
-        RewardError
-            ``reward`` is not a finite number in range.
-        RangeError
-            The action does not exist.
-        OrderError
-            There is no current percept.
-        BusyError
-            The replay buffer is full and in use by a learning step.
-        """
-        if choice is not self._chosen:
-            self._choose(choice)
-        packed = None
-        if percept is not None:
-            packed = self._pack(percept)
-        elif not terminated:
-            raise PerceptError("percept: None is only allowed if the episode terminated")
-        try:
-            status = _observe(
-                self._handle,
-                self._choice,
-                reward,
-                packed,
-                1 if terminated else 2 if truncated else 0,
-            )
-        except ValueError:
-            raise RangeError("terminated and truncated must be True or False") from None
-        except ctypes.ArgumentError:
-            raise RewardError(f"a reward must be a number, not {reward!r:.80}") from None
-        if status:
-            self._fail(status)
-
-    def _choose(self, choice: Any) -> None:
-        """Write the action that the caller took to self._choice."""
-        try:
-            action, exploited = choice if isinstance(choice, tuple) else (choice, False)
-            number = int(action.__index__())
-        except (AttributeError, TypeError, ValueError):
-            raise RangeError(
-                f"an action must be an int or the result of act(), not {choice!r:.80}"
-            ) from None
-        if not 0 <= number < self._config.actions:
-            raise RangeError(f"action {number} is not in [0, {self._config.actions})")
-        self._chosen = _NOTHING
-        self._choice.action = number
-        self._choice.exploited = bool(exploited)
+        return self._act()
 
     def act_many(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Choose an action for each environment of a vector.
@@ -320,15 +210,7 @@ class Agent(Queries):
         After an exception of a callback or Ctrl-C, the next call continues where this one stopped.
         Other threads run meanwhile: the interpreter's lock is released.
         """
-        progress = _native.Progress()
-        portion, work = _SLICE, 0
-        if budget is not None:
-            portion = whole("budget", budget, _native.BUDGET_MIN, 2**32 - 1, RangeError)
-        while True:
-            self._check(self._long("rlvc_learn", portion, _byref(progress)))
-            work += progress.work
-            if progress.done or budget is not None:
-                return Progress(work, progress.rounds, progress.splits, bool(progress.done))
+        return self._learn(budget)
 
     @property
     def successors(self) -> bool:
@@ -473,104 +355,3 @@ class Agent(Queries):
         learning step: collect interactions first. Source: ``core/include/rlvc/policy.h``.
         """
         return Policy(self, tolerance=tolerance, percepts=percepts, entries=entries, effort=effort)
-
-    # -------------------------------------------------------------- saving and loading
-
-    def snapshot(self) -> bytes:
-        """Return the complete state of the agent, also in the middle of a learning step.
-
-        Returns
-        -------
-        bytes
-            The same on every machine. ``core/SPEC.md`` describes the format.
-        """
-        store = MemoryStore(self._snapshot_bytes())
-        self._check(self._long("rlvc_save", _byref(store.native)))
-        return store.newest()
-
-    @classmethod
-    def restore(cls, domain: Domain | int, config: Config | int, snapshot: bytes) -> Agent:
-        """Make an agent from a snapshot. It continues exactly as the original would have.
-
-        Parameters
-        ----------
-        domain : Domain or int
-            The domain of the original.
-        config : Config or int
-            The config of the original, the same in every field.
-        snapshot : bytes
-            The result of :meth:`snapshot`.
-
-        Returns
-        -------
-        Agent
-
-        Raises
-        ------
-        SnapshotError
-            It is corrupt, or has another version, config or domain.
-        """
-        if not isinstance(snapshot, bytes | bytearray | memoryview):
-            raise SnapshotError(f"a snapshot is bytes, not {type(snapshot).__name__}")
-        agent = cls.__new__(cls)
-        agent._make(domain, config, {}, bytes(snapshot))
-        return agent
-
-    def save(self, file: str | Path, names: Sequence[str] = ()) -> None:
-        """Write the agent to a file. If that fails, an existing file stays as it was.
-
-        Parameters
-        ----------
-        file : str or Path
-        names : sequence of str
-            Names of the bits or components, for ``python -m rlvc show``.
-
-        Raises
-        ------
-        StoreError
-            The file cannot be written, or is a link, a folder, a FIFO or a device.
-        ConfigError
-            ``names`` is not a list of str.
-
-        Notes
-        -----
-        The new file replaces the old one at once, when all of it is on the disk, and has its
-        permissions. This also removes what a process that was killed while it saved to this file
-        left in the folder. Time is O(capacity + classes); memory is that of three snapshots.
-        """
-        write_file(file, self, names)
-
-    @classmethod
-    def load(cls, file: str | Path, domain: Domain | None = None) -> Agent:
-        """Read an agent from a file that :meth:`save` wrote.
-
-        Parameters
-        ----------
-        file : str or Path
-        domain : Domain or None
-            The domain of the agent. None if that is :class:`Bits`, :class:`Descriptors`,
-            :class:`Spatial` or :class:`Thresholds`, which are in the file.
-
-        Returns
-        -------
-        Agent
-
-        Raises
-        ------
-        StoreError
-            The file cannot be read.
-        SnapshotError
-            It is not such a file, is corrupt, or needs a domain.
-        """
-        kept, config, _, snapshot = read_file(file)
-        domain = kept if domain is None else domain
-        if domain is None:
-            raise SnapshotError(f"{file}: the agent has a user-defined domain: pass it as domain")
-        try:
-            return cls.restore(domain, config, snapshot)
-        except Error as error:
-            raise type(error)(f"{file}: {error}") from None
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the agent; its domain must be one that can be pickled."""
-        return type(self).restore, (self._domain, self._config, self.snapshot())

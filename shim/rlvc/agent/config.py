@@ -184,6 +184,7 @@ def to_native(config: Config, domain: _native.Domain) -> _native.Config:
     domain_reference = ctypes.byref(domain)
     actions = _native_value("actions", ctypes.c_uint32, config.actions)
     _native.call.rlvc_config_default(reference, domain_reference, actions)
+    native.method = _native.METHOD_CLASSES
     for field, kind in _native.Config._fields_:  # type: ignore[misc]
         value = getattr(config, field, None)
         if value is not None and field != "reserved":

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import ctypes
 import json
-from collections.abc import Callable
 from types import TracebackType
 from typing import Any, Literal, TypeVar
 
@@ -13,13 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
-from ..domains.bits import Bits
 from ..domains.callbacks import Guard
-from ..domains.descriptors import Descriptors
-from ..domains.domain import Domain, checked_pack, checked_pack_many
-from ..domains.spatial import Spatial
-from ..domains.thresholds import Thresholds
+from ..domains.domain import Domain
 from ..errors import (
     BlockError,
     BusyError,
@@ -35,8 +29,6 @@ from ..errors import (
     SnapshotError,
     StoreError,
 )
-from .config import Config, to_native
-from .snapshot import MemoryStore
 
 _ERRORS: dict[int, type[Error]] = {
     _native.E_CONFIG: ConfigError,
@@ -92,53 +84,13 @@ class Handle:
 
     _noun = "agent"
     _block: npt.NDArray[np.uint64] | None
+    _guard: Guard
+    _domain: Any
+    _memory_bytes: int
     # None during a long call and after close(): C then returns RLVC_E_NULL.
     _handle: int | None
     _address: int | None
     _print, _export = "rlvc_print", "rlvc_export_c"
-
-    def _make(
-        self,
-        domain: Domain | int,
-        config: Config | int,
-        changes: dict[str, Any],
-        snapshot: bytes | None,
-    ) -> None:
-        """Allocate memory and make an agent in it: a new one, or that of a snapshot."""
-        if not isinstance(domain, Domain):
-            domain = Bits(domain)
-        if not isinstance(config, Config):
-            config = Config(actions=whole("actions", config, 1, 255))
-        if changes:
-            config = config.replace(**changes)
-        self._domain = domain
-        self._config = config
-        self._guard = Guard()
-        self._pack: Callable[[Any], bytes] = domain.pack
-        self._pack_many: Callable[[Any], npt.NDArray[Any]] = domain.pack_many
-        self._native_domain = domain.native(self._guard)
-        if type(domain) not in (Bits, Descriptors, Spatial, Thresholds):
-            percept_bytes = int(self._native_domain.percept_bytes)
-            self._pack = checked_pack(domain.pack, percept_bytes)
-            self._pack_many = checked_pack_many(domain.pack_many, percept_bytes)
-        self._native_config = to_native(config, self._native_domain)
-        references = (_byref(self._native_config), _byref(self._native_domain))
-        size = ctypes.c_size_t()
-        self._check(_native.call.rlvc_agent_size(*references, _byref(size)))
-        self._block = allocated(size.value, "an agent", "reduce capacity or classes")
-        agent = ctypes.c_void_p()
-        place = (self._block.ctypes.data, size.value)
-        if snapshot is None:
-            status = _native.call.rlvc_agent_init(*references, *place, _byref(agent))
-        else:
-            store = MemoryStore(self._snapshot_bytes(), snapshot)
-            reference = _byref(store.native)
-            status = _native.long_call.rlvc_load(*references, *place, reference, _byref(agent))
-            if status == _native.OK:
-                self._guard.forget()  # a learning step that cannot go on is given up
-        self._check(status)
-        self._handle = self._address = agent.value
-        self._memory_bytes = size.value
 
     # -------------------------------------------------------------- errors
 
@@ -282,15 +234,10 @@ class Handle:
     @property
     def domain(self) -> Domain:
         """The domain: percepts and features."""
-        return self._domain
+        domain: Domain = self._domain
+        return domain
 
     @property
     def memory_bytes(self) -> int:
         """Size of the memory, in bytes."""
         return self._memory_bytes
-
-    def _snapshot_bytes(self) -> int:
-        size = ctypes.c_uint32()
-        references = (_byref(self._native_config), _byref(self._native_domain))
-        self._check(_native.call.rlvc_snapshot_size(*references, _byref(size)))
-        return size.value

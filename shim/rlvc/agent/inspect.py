@@ -11,25 +11,24 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..domains.domain import Percept
+from ..domains.domain import Domain, Percept
 from ..errors import ArrayError
 from .batch import checked
 from .config import Config
-from .handle import Handle
+from .learner import Learner
 from .results import SOLUTIONS, Prediction, Split, Statistics
 
 _predict = _native.call.rlvc_predict
 _byref = ctypes.byref
 
 
-class Queries(Handle):
+class Queries(Learner[Domain, Config]):
     """The queries of :class:`rlvc.Agent`."""
 
     def _make(self, *arguments: Any) -> None:
         """Make the agent, and the memory for results of C."""
         super()._make(*arguments)
         self._class = ctypes.c_uint32()
-        self._action = ctypes.c_uint32()
         self._answers = (_byref(self._class), _byref(self._action))
 
     def __repr__(self) -> str:
@@ -96,11 +95,6 @@ class Queries(Handle):
         if status:
             self._fail(status, done.value)
         return Prediction(*out)
-
-    @property
-    def config(self) -> Config:
-        """The config of the agent."""
-        return self._config
 
     @property
     def statistics(self) -> Statistics:

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: MIT
 """The policy of a planner, and its file.
 
-The file is a line ``rlvc policy 1``, a line of JSON, and the CRC-32 of both in 4 bytes, lowest first.
-The JSON has ``thresholds``, the parameters of the domain, ``names`` (of the components), ``actions``
-and ``nodes``.
+The JSON of the file (:mod:`rlvc.agent.kept`) has ``thresholds``, the parameters of the domain,
+``names`` (of the components), ``actions`` and ``nodes``.
 """
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
-import json
 import math
-import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,12 +17,11 @@ from .. import _native
 from ..checks import real, whole
 from ..domains.callbacks import Guard
 from ..domains.thresholds import Thresholds
-from ..errors import ConfigError, Error, RangeError, SnapshotError, StoreError
-from ..files import open_file, read, replace, tidy
+from ..errors import Error, RangeError, SnapshotError
 from .handle import allocated
+from .kept import is_kind, read_content, unpack, write_named
 from .policy import Compaction, Policy
 
-_MAGIC = b"rlvc policy 1\n"
 _byref = ctypes.byref
 
 
@@ -93,16 +88,8 @@ class PlannedPolicy(Policy):
         StoreError
             The file cannot be written, or is a link, a folder, a FIFO or a device.
         """
-        if isinstance(names, str) or not all(isinstance(name, str) for name in names):
-            raise ConfigError(f"names: {names!r:.80} is not a list of str")
-        head = {
-            "thresholds": self._thresholds.parameters,
-            "names": list(names),
-            "actions": self.actions,
-            "nodes": self.nodes,
-        }
-        content = _MAGIC + json.dumps(head).encode() + b"\n"
-        replace(file, content + zlib.crc32(content).to_bytes(4, "little"))
+        head = {"thresholds": self._thresholds.parameters, "actions": self.actions}
+        write_named(file, "policy", names, head | {"nodes": self.nodes})
 
     @property
     def _thresholds(self) -> Thresholds:
@@ -148,9 +135,7 @@ def _node(cutpoint: Any, component: Any, child: Any, action: Any) -> tuple[float
 
 def is_policy(file: str | Path) -> bool:
     """Whether a file can be read and begins as that of a policy."""
-    with contextlib.suppress(OSError), open_file(file) as opened:
-        return opened.read(len(_MAGIC)) == _MAGIC
-    return False
+    return is_kind(file, "policy")
 
 
 def read_file(file: str | Path) -> tuple[PlannedPolicy, list[str]]:
@@ -164,18 +149,12 @@ def read_file(file: str | Path) -> tuple[PlannedPolicy, list[str]]:
     -------
     PlannedPolicy, list of str
     """
+    content = read_content(file)
     try:
-        tidy(file)
-        content = read(file)
-    except OSError as error:
-        raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
-    if not content.startswith(_MAGIC):
-        raise SnapshotError(f"{file}: not the file of a policy")
-    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
-        raise SnapshotError(f"{file}: damaged: the checksum is wrong")
-    try:
-        head = json.loads(content[len(_MAGIC) : -4])
+        head, _ = unpack("policy", content)
         policy = PlannedPolicy(Thresholds(*head["thresholds"]), head["actions"], head["nodes"])
         return policy, [str(name) for name in head["names"]]
-    except (Error, KeyError, RecursionError, TypeError, ValueError) as error:
+    except SnapshotError as error:
+        raise SnapshotError(f"{file}: {error}") from None
+    except (Error, KeyError, TypeError, ValueError) as error:
         raise SnapshotError(f"{file}: damaged: {error}") from error

@@ -41,8 +41,8 @@ class PlannerConfig:
 
     Notes
     -----
-    The fields are checked when a planner is made. ``rlvc_planner_config`` in
-    ``core/include/rlvc/planner.h`` has more details.
+    The fields are checked when a planner is made. ``rlvc_config`` in
+    ``core/include/rlvc/agent.h`` has more details.
     """
 
     actions: int
@@ -73,18 +73,18 @@ class PlannerConfig:
         return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
 
 
-def to_native(config: PlannerConfig, components: int) -> _native.PlannerConfig:
+def to_native(config: PlannerConfig, domain: _native.Domain) -> _native.Config:
     """Make the C struct and check it.
 
     Parameters
     ----------
     config : PlannerConfig
-    components : int
-        Length of a percept.
+    domain : rlvc_domain
+        Of thresholds.
 
     Returns
     -------
-    rlvc_planner_config
+    rlvc_config
 
     Raises
     ------
@@ -93,8 +93,9 @@ def to_native(config: PlannerConfig, components: int) -> _native.PlannerConfig:
     """
     capacity = whole("capacity", config.capacity, 64, _native.PLANNER_CAPACITY_MAX)
     most = _native.PLANNER_CANDIDATES_MAX
-    return _native.PlannerConfig(
-        components=whole("components", components, 1, _native.PLANNER_COMPONENTS_MAX),
+    whole("components", domain.percept_words, 1, _native.PLANNER_COMPONENTS_MAX)
+    return _native.Config(
+        method=_native.METHOD_PLANNER,
         actions=whole("actions", config.actions, 2, _native.PLANNER_ACTIONS_MAX),
         capacity=capacity,
         sample=whole("sample", config.sample, 32, capacity),

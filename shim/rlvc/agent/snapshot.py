@@ -1,20 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Snapshots in memory and in files.
+"""Snapshots in memory, and the files of agents and planners.
 
-The file of an agent is a line ``rlvc agent 2``, a line of JSON, the library's snapshot, and the
-CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``, ``descriptors``, ``spatial`` and
+The JSON of a file (:mod:`rlvc.agent.kept`) has ``bits``, ``descriptors``, ``spatial`` and
 ``thresholds``, one of which holds the parameters of the domain (all are null for a user-defined
-domain), ``names``, ``config``, and ``bytes``, the size of the snapshot. Version 1, which has no
-CRC-32, can be read too.
+domain), ``names``, ``config``, and ``bytes``, the size of the library's snapshot, which follows.
 """
 
 from __future__ import annotations
 
 import ctypes
 import dataclasses
-import json
-import re
-import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,15 +22,12 @@ from ..domains.descriptors import Descriptors
 from ..domains.domain import Domain
 from ..domains.spatial import Spatial
 from ..domains.thresholds import Thresholds
-from ..errors import ConfigError, SnapshotError, StoreError
-from ..files import read, replace, tidy
+from ..errors import SnapshotError
 from .config import Config
+from .kept import read_content, unpack, write_named
 
 if TYPE_CHECKING:
-    from .agent import Agent
-
-_MAGIC = re.compile(rb"rlvc agent (\d{1,9})\n")
-_VERSION = 2
+    from .learner import Learner
 
 
 class MemoryStore:
@@ -68,18 +60,18 @@ class MemoryStore:
     def newest(self) -> bytes:
         """Return the newest snapshot."""
         status, info = self.peek()
-        if status not in (_native.OK, _native.E_VERSION):  # a planner's have a version of their own
+        if status != _native.OK:
             raise SnapshotError(_native.status_text(status))
         return self._slots[info.slot, : info.bytes].tobytes()
 
 
-def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
-    """Write an agent's file. A failure leaves the old file.
+def write_file(file: str | Path, learner: Learner[Any, Any], names: Sequence[str]) -> None:
+    """Write the file of an agent or a planner. A failure leaves the old file.
 
     Parameters
     ----------
     file : str or Path
-    agent : Agent
+    learner : Learner
     names : sequence of str
         Names of the bits or components.
 
@@ -88,33 +80,26 @@ def write_file(file: str | Path, agent: Agent, names: Sequence[str]) -> None:
     StoreError
         The file cannot be written, or is a link, a folder, a FIFO or a device.
     """
-    if isinstance(names, str) or not all(isinstance(name, str) for name in _listed(names)):
-        raise ConfigError(f"names: {names!r:.80} is not a list of str")
-    snapshot = agent.snapshot()
+    snapshot = learner.snapshot()
     head = {
-        **described(agent.domain),
-        "names": list(names),
-        "config": dataclasses.asdict(agent.config),
+        **described(learner.domain),
+        "config": dataclasses.asdict(learner.config),
         "bytes": len(snapshot),
     }
-    text = json.dumps(head, default=lambda number: number.item())  # numpy's numbers
-    content = b"rlvc agent %d\n%b\n%b" % (_VERSION, text.encode(), snapshot)
-    replace(file, content + zlib.crc32(content).to_bytes(4, "little"))
+    write_named(file, learner._noun, names, head, snapshot)
 
 
-def _listed(names: Sequence[str]) -> list[Any]:
-    try:
-        return list(names)
-    except TypeError:
-        return [None]
-
-
-def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes]:
-    """Read an agent's file.
+def read_file(
+    file: str | Path, kind: str = "agent", make: Any = Config
+) -> tuple[Domain | None, Any, list[str], bytes]:
+    """Read the file of an agent or a planner.
 
     Parameters
     ----------
     file : str or Path
+    kind : {"agent", "planner"}
+    make : type
+        Of the config.
 
     Returns
     -------
@@ -128,38 +113,18 @@ def read_file(file: str | Path) -> tuple[Domain | None, Config, list[str], bytes
     SnapshotError
         It is not such a file, or is corrupt.
     """
+    content = read_content(file)
     try:
-        tidy(file)
-        content = read(file)
-    except OSError as error:
-        raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
-    try:
-        line, _, snapshot = _unwrapped(content).partition(b"\n")
-        head: dict[str, Any] = json.loads(line)
-        domain, config = domain_of(head), Config(**head["config"])
+        head, snapshot = unpack(kind, content)
+        domain, config = domain_of(head), make(**head["config"])
         names, count = [str(name) for name in head["names"]], head["bytes"]
     except SnapshotError as error:
         raise SnapshotError(f"{file}: {error}") from None
-    except Exception as error:  # JSON of any depth, and members of any kind
+    except Exception as error:  # members of any kind
         raise SnapshotError(f"{file}: damaged: the header is not valid ({error})") from error
     if len(snapshot) != count:
         raise SnapshotError(f"{file}: damaged: {len(snapshot)} bytes of {count}")
     return domain, config, names, snapshot
-
-
-def _unwrapped(content: bytes) -> bytes:
-    """Return what stands between the first line and the CRC-32, if that is right."""
-    magic = _MAGIC.match(content)
-    if magic is None:
-        raise SnapshotError("not the file of an agent")
-    version = int(magic[1])
-    if not 1 <= version <= _VERSION:
-        raise SnapshotError(f"version {version}; this package reads versions 1 to {_VERSION}")
-    if version == 1:
-        return content[magic.end() :]
-    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
-        raise SnapshotError("damaged: the checksum is wrong")
-    return content[magic.end() : -4]
 
 
 def described(domain: Domain) -> dict[str, Any]:
@@ -174,7 +139,7 @@ def described(domain: Domain) -> dict[str, Any]:
 
 def domain_of(head: dict[str, Any]) -> Domain | None:
     """Make the domain whose parameters are in a header; None: it is user-defined."""
-    if head["bits"] is not None:
+    if head.get("bits") is not None:
         return Bits(head["bits"])
     if head.get("descriptors") is not None:
         return Descriptors(*head["descriptors"])

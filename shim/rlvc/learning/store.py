@@ -1,25 +1,22 @@
 # SPDX-License-Identifier: MIT
 """Runs in files.
 
-The file of a run is a line ``rlvc run 1``, a line of JSON, the library's snapshot of the learner, the
-percepts that were seen, and the CRC-32 of all these in 4 bytes, lowest first. The JSON has ``bits``,
-``descriptors`` and ``thresholds``, one of which holds the parameters of the domain; ``config`` of an
-agent, ``planner``, the config of a planner, or ``nodes`` of a policy; and the encoder, the actions and
-the history.
+The file (:mod:`rlvc.agent.kept`) holds the library's snapshot of the learner and the percepts that were
+seen. Its JSON has ``bits``, ``descriptors`` and ``thresholds``, one of which holds the parameters of the
+domain; ``config`` of an agent, ``planner``, the config of a planner, or ``nodes`` of a policy; and the
+encoder, the actions and the history.
 """
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import json
 import math
-import zlib
 from pathlib import Path
 from typing import Any
 
 from ..agent.agent import Agent
 from ..agent.config import Config
+from ..agent.kept import is_kind, pack, read_content, unpack
 from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.planner_config import PlannerConfig
@@ -27,22 +24,19 @@ from ..agent.snapshot import described, domain_of
 from ..checks import flag, real, whole
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
-from ..errors import BusyError, Error, SnapshotError, StoreError
-from ..files import open_file, read, replace, tidy
+from ..errors import BusyError, Error, SnapshotError
+from ..files import replace
 from .actions import Actions
 from .encode import Encoder
 from .explanation import Seen
 from .run import Record, Run
 
-_MAGIC = b"rlvc run 1\n"
 _WHOLE = (0, 2**63 - 1)  # the range of counts
 
 
 def is_run(file: str | Path) -> bool:
     """Whether a file can be read and begins as that of a run."""
-    with contextlib.suppress(OSError), open_file(file) as opened:
-        return opened.read(len(_MAGIC)) == _MAGIC
-    return False
+    return is_kind(file, "run")
 
 
 def packed(run: Run) -> bytes:
@@ -78,9 +72,7 @@ def packed(run: Run) -> bytes:
         "seen": [len(run.seen.percepts), run.seen.count, run.seen.stride],
         "bytes": len(snapshot),
     }
-    text = json.dumps(head, default=lambda number: number.item())  # numpy's numbers
-    content = b"".join([_MAGIC, text.encode(), b"\n", snapshot, *run.seen.percepts])
-    return content + zlib.crc32(content).to_bytes(4, "little")
+    return pack("run", head, b"".join([snapshot, *run.seen.percepts]))
 
 
 def _snapshot(learner: Agent | Planner) -> bytes:
@@ -119,11 +111,7 @@ def load(file: str | Path, encoder: Any = None, domain: Domain | None = None) ->
     SnapshotError
         It is not such a file, is corrupt, or needs the encoder or the domain.
     """
-    try:
-        tidy(file)
-        content = read(file)
-    except OSError as error:
-        raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
+    content = read_content(file)
     try:
         return unpacked(content, encoder, domain)
     except Error as error:
@@ -132,18 +120,12 @@ def load(file: str | Path, encoder: Any = None, domain: Domain | None = None) ->
 
 def unpacked(content: bytes, encoder: Any = None, domain: Domain | None = None) -> Run:
     """Make a run of the content of its file: see :func:`load`."""
-    if not content.startswith(_MAGIC):
-        raise SnapshotError(
-            "not the file of a run: rlvc.Agent.load or PlannedPolicy.load may read it"
-        )
-    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
-        raise SnapshotError("damaged: the checksum is wrong")
-    line, _, rest = content[len(_MAGIC) : -4].partition(b"\n")
+    head, rest = unpack("run", content)
     try:
-        return _made(json.loads(line), rest, encoder, domain)
+        return _made(head, rest, encoder, domain)
     except SnapshotError:
         raise
-    except Exception as error:  # JSON of any depth, and members of any kind
+    except Exception as error:  # members of any kind
         raise SnapshotError(f"damaged: the header is not valid ({error})") from error
 
 

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* The head of a planner's snapshot: see planner_snapshot.c. */
+#ifndef RLVC_SRC_PLANNER_SNAPSHOT_H
+#define RLVC_SRC_PLANNER_SNAPSHOT_H
+
+#include "rlvc/planner.h"
+#include "two_slot.h"
+
+/* Opens a planner's snapshot. Its config takes the place of info's, but for what a planner does not
+ * look at.
+ * @return RLVC_OK; RLVC_E_VERSION; RLVC_E_STORE; RLVC_E_DAMAGED. */
+rlvc_status rlvc_planner_open_slot(const rlvc_store *store, const rlvc_two_slot *slot,
+                                   rlvc_stream *stream, rlvc_snapshot_info *info);
+
+#endif
