@@ -28,6 +28,9 @@ def test_a_curve_without_exploring(tmp_path):
     assert rlvc.load(tmp_path / "at-200.rlvc").interactions == 200
     rows = list(csv.DictReader(io.StringIO((tmp_path / "history.csv").read_text(encoding="utf-8"))))
     assert [int(row["interactions"]) for row in rows] == [r.interactions for r in run.history]
+    for file in (None, 3, b"at"):
+        with pytest.raises(errors.ConfigError, match="file"):
+            rlvc.CheckpointCallback(file)
     with pytest.raises(errors.ConfigError, match="every"):
         rlvc.EvalCallback(Line(), 0)
 

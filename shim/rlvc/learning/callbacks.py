@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..checks import real, whole
+from ..errors import ConfigError
 from ..files import replace
 from . import boundary
 
@@ -102,6 +103,8 @@ class CheckpointCallback(_Every):
 
     def __init__(self, file: str | Path, every: int = 10_000) -> None:
         super().__init__(every)
+        if not isinstance(file, str | Path):
+            raise ConfigError(f"file: {file!r:.80} is not the name of a file")
         self.file = str(file)
 
     def __call__(self, run: Run) -> None:
