@@ -190,6 +190,32 @@ static void test_the_smaller_is_chosen(void **state) {
     }
 }
 
+/* Whatever its place among the four best, one that was never tried is raced; behind them it is not.
+ * Where all were tried alike, it is the best. */
+static void test_each_place(void **state) {
+    (void)state;
+    for (uint32_t odd = 0; odd < 36u; odd++) {
+        make();
+        for (uint32_t i = 0; i < 6u; i++)
+            (void)rlvc_archive_add(&archive, &tree, 0.0f);
+        const uint32_t place = odd % 6u, turn = odd / 6u; /* which one is which */
+        for (uint32_t rank = 0; rank < 6u; rank++)
+            for (uint32_t e = 0; e < 20u && rank != place; e++)
+                note((rank + turn) % 6u, 0.0f, 10.0f);
+        for (uint32_t rank = 0; rank < 6u; rank++)
+            archive.trial[(rank + turn) % 6u].score = 10.0f - (float)rank;
+        const uint32_t expected = (place < 4u ? place : 0u) + turn;
+        archive.deviation = 0.001f;
+        assert_int_equal(rlvc_archive_race(&archive), expected % 6u);
+        for (uint32_t e = 0; e < 20u; e++)
+            note((place + turn) % 6u, 0.0f, 10.0f);
+        for (uint32_t rank = 0; rank < 6u; rank++)
+            archive.trial[(rank + turn) % 6u].score = 10.0f - (float)rank;
+        archive.deviation = 0.001f;
+        assert_int_equal(rlvc_archive_race(&archive), turn);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_untried),
@@ -200,6 +226,7 @@ int main(void) {
         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_choosing),
         cmocka_unit_test(test_the_smaller_is_chosen),
+        cmocka_unit_test(test_each_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

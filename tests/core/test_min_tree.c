@@ -139,6 +139,68 @@ static void test_against_the_recursion(void **unused) {
 }
 
 /* Exclusive or of all features: no part of the table helps. */
+/* What most rows allow of what one allows; of equals the lowest. */
+static uint32_t favourite(const problem *p, uint32_t row) {
+    uint32_t best = 64, most = 0;
+    for (uint32_t a = 0; a < 64u; a++) {
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < p->task.rows; i++)
+            count += (uint32_t)(p->allowed[i] >> a & 1u);
+        if ((p->allowed[row] >> a & 1u) && count > most) {
+            most = count;
+            best = a;
+        }
+    }
+    return best;
+}
+
+/* The sum of n_a^2 / n over the sides of a feature, in the order of the library. */
+static float purity(const problem *p, uint32_t feature) {
+    float sum = 0.0f;
+    for (uint32_t side = 0; side < 2; side++) {
+        uint32_t favours[64] = {0}, rows = 0;
+        for (uint32_t i = 0; i < p->task.rows; i++)
+            if (bit(p, i, feature) == side) {
+                favours[favourite(p, i)]++;
+                rows++;
+            }
+        if (rows == 0)
+            return 0.0f;
+        for (uint32_t a = 0; a < 64u; a++)
+            sum += (float)favours[a] * (float)favours[a] / (float)rows;
+    }
+    return sum;
+}
+
+/* Without room or effort all rows are parted first by the feature that leaves them purest. */
+static void test_the_greedy_way(void **unused) {
+    (void)unused;
+    rlvc_rng rng;
+    uint32_t parted = 0;
+    rlvc_rng_seed(&rng, 9);
+    for (uint32_t round = 0; round < 2000u; round++) {
+        problem p;
+        rlvc_min_tree_result tree;
+        draw(&p, &rng, 2u + rlvc_rng_below(&rng, 5), 1u + 20u * rlvc_rng_below(&rng, 2),
+             2u + rlvc_rng_below(&rng, 4));
+        p.task.entries = 2;
+        p.task.effort = 1;
+        if (solve(&p, &tree) != RLVC_OK || tree.exact)
+            continue;
+        float most = 0.0f;
+        uint32_t purest = 0;
+        for (uint32_t f = 0; f < p.task.features; f++)
+            if (purity(&p, f) > most) {
+                most = purity(&p, f);
+                purest = f;
+            }
+        assert_int_equal(tree.split[0].leaf, 0);
+        assert_int_equal(tree.split[0].feature, purest);
+        parted++;
+    }
+    assert_true(parted > 200u);
+}
+
 static void test_parity(void **unused) {
     (void)unused;
     problem p;
@@ -245,6 +307,7 @@ static void test_no_features(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_the_recursion),
+        cmocka_unit_test(test_the_greedy_way),
         cmocka_unit_test(test_parity),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_nothing_to_tell_apart),

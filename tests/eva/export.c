@@ -16,7 +16,7 @@ int eva_export(void) {
     if (!agent)
         return 1;
     for (uint32_t j = 0; j < 2u; j++) {
-        rlvc_split about = {any_in(0, j),
+        rlvc_split about = {each_in(0, j),
                             1,
                             any_in(0, 3),
                             any_in(0, UINT32_MAX),
