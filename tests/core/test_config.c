@@ -248,6 +248,9 @@ static void test_callbacks(void **state) {
     domain.exhibits = NULL;
     expect("exhibits", "without exhibits");
     make();
+    domain.kind = 5;
+    expect("exhibits", "of a kind that there is none of");
+    make();
     domain.name = NULL;
     expect("name", "without name");
     make();

@@ -202,6 +202,39 @@ static void test_no_tie(void **unused) {
     assert_true(info.value_after == info.value_before);
 }
 
+/* Q-learning goes by what was earned last, the model by all: then another action may be better than
+ * the agent's own, and what follows is random. */
+static void test_better_in_the_model(void **unused) {
+    (void)unused;
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    rlvc_policy_info info;
+    assert_int_equal(rlvc_bits_domain(1, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, 2), RLVC_OK);
+    config.capacity = 1000;
+    config.classes = 16;
+    config.solver = RLVC_SOLVER_Q_LEARNING;
+    config.discount = 0.01f;
+    assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);
+    for (uint32_t i = 0; i < 800; i++) {
+        const unsigned char percept = (unsigned char)(i % 2u), next = (unsigned char)(i / 8u % 2u);
+        const rlvc_choice choice = {(uint8_t)(i / 2u % 2u), 0};
+        const float changing = choice.action ? 0.9f : i < 500 ? 0.99f : 0.85f;
+        const float reward = percept ? 5.0f * (float)(choice.action == 0) : changing;
+        assert_int_equal(rlvc_begin(agent, &percept), RLVC_OK);
+        assert_int_equal(rlvc_observe(agent, choice, reward, &next, RLVC_TRUNCATED), RLVC_OK);
+        if (i == 300 || i == 799)
+            assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    }
+    const rlvc_policy_config options = default_of(agent);
+    assert_int_equal(act(compact(agent, &options, &info), 0), 0);
+    assert_int_equal(info.collapsed, 2);
+    assert_int_equal(info.leaves, 1);
+    assert_true(info.value_after == info.value_before);
+}
+
 /* Only what a finished learning step has labelled is in the model; of the rest Q is known. */
 static void test_unlabelled(void **unused) {
     (void)unused;
@@ -504,13 +537,21 @@ static void test_reentering(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fewer_leaves),  cmocka_unit_test(test_tolerance),
-        cmocka_unit_test(test_losses_add_up), cmocka_unit_test(test_no_tie),
-        cmocka_unit_test(test_unlabelled),    cmocka_unit_test(test_untried),
-        cmocka_unit_test(test_as_agent),      cmocka_unit_test(test_nothing_smaller),
-        cmocka_unit_test(test_many_percepts), cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_each_callback_failing),
-        cmocka_unit_test(test_print),         cmocka_unit_test(test_export),
+        cmocka_unit_test(test_fewer_leaves),
+        cmocka_unit_test(test_tolerance),
+        cmocka_unit_test(test_losses_add_up),
+        cmocka_unit_test(test_no_tie),
+        cmocka_unit_test(test_better_in_the_model),
+        cmocka_unit_test(test_unlabelled),
+        cmocka_unit_test(test_untried),
+        cmocka_unit_test(test_as_agent),
+        cmocka_unit_test(test_nothing_smaller),
+        cmocka_unit_test(test_many_percepts),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_each_callback_failing),
+        cmocka_unit_test(test_print),
+        cmocka_unit_test(test_export),
         cmocka_unit_test(test_reentering),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -103,7 +103,7 @@ static int wrong_in_domain(const rlvc_domain *domain) {
         return WRONG_DOMAIN_PERCEPT_BYTES;
     if (domain->feature_bytes < 1 || domain->feature_bytes > (UINT32_C(1) << 16))
         return WRONG_DOMAIN_FEATURE_BYTES;
-    if (!domain->exhibits || (!RLVC_HAS_OTHER_DOMAINS && domain->kind != RLVC_DOMAIN_BITS))
+    if (!domain->exhibits || !((unsigned)(RLVC_DOMAINS) >> (domain->kind & 7u) & 1u))
         return WRONG_DOMAIN_EXHIBITS;
     if (!domain->candidates && !(RLVC_HAS_OWN_ORACLE && domain->oracle))
         return WRONG_DOMAIN_CANDIDATES;
@@ -168,9 +168,9 @@ static int wrong_in_numbers(const rlvc_config *config) {
     for (int i = 0; i < 7; i++) {
         const uint32_t number = field_of(config, offsetof(rlvc_config, discount), i);
         const int may_be_0 = i < 2 || i == 6;
-        const float one = RLVC_HAS_UNDISCOUNTED || i > 0 ? 1.0f : 0.9999999f;
+        const float discount = RLVC_HAS_UNDISCOUNTED ? 1.0f : 0.9999999f;
         const float most_worth = RLVC_HAS_EFFECT ? RLVC_REWARD_MAX : 0.0f;
-        const float most = i == 4 ? RLVC_REWARD_MAX : i < 6 ? one : most_worth;
+        const float most = i == 4 ? RLVC_REWARD_MAX : i == 6 ? most_worth : i > 0 ? 1.0f : discount;
         const int is_0 = number << 1u == 0; /* or -0 */
         if (is_0 ? !may_be_0 : number > rlvc_bits_of(most))
             return WRONG_DISCOUNT + i;

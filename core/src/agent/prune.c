@@ -146,8 +146,7 @@ static void label_again(pruner *p) {
 /* Without the label of its last interaction the next step tests the classes again. */
 static void forget_last(rlvc_replay *replay) {
     const uint32_t end = replay->count - replay->open;
-    if (end > 0)
-        replay->label[rlvc_replay_slot(replay, end - 1u)] = RLVC_NO_CLASS;
+    replay->label[rlvc_replay_slot(replay, end - (uint32_t)(end > 0))] = RLVC_NO_CLASS;
 }
 
 rlvc_status rlvc_prune(rlvc_agent *agent, float tolerance, float deviations, uint32_t *undone) {

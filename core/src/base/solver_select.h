@@ -8,7 +8,8 @@
  * stands for number n of RLVC_SOLVER_*, RLVC_SCORE_*, RLVC_CRITERION_* or RLVC_DOMAIN_*, or of
  * config.dependence; of RLVC_METHODS 0 is classes and 1 the planner; of RLVC_ORACLES 0 is the
  * default oracle and 1 the domain's own; of RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any
- * other; of RLVC_DISCOUNTS 0 is a discount below 1, and 1 is 1.
+ * other; of RLVC_DISCOUNTS 0 is a discount below 1, and 1 is 1. -DRLVC_AT_ONCE=0 leaves out what is
+ * there only to be fast where budgets are large.
  *
  * What is left out is compiled all the same, under conditions that are constant, so that it cannot
  * rot. */
@@ -41,6 +42,9 @@
 #define RLVC_DISCOUNTS 3u
 #endif
 
+#ifndef RLVC_AT_ONCE
+#define RLVC_AT_ONCE 1
+#endif
 #ifndef RLVC_EFFECTS
 #define RLVC_EFFECTS 3u
 #endif

@@ -273,7 +273,7 @@ static int seek(maker *m, rlvc_policy_info *info) {
     uint32_t attempt = loss > 0.0f ? 0 : ATTEMPT_TIES;
     m->task.row = m->row;
     m->task.allowed = m->allowed;
-    for (; attempt <= ATTEMPT_OWN; attempt++) {
+    for (;; attempt++) { /* the agent's own actions are worth as much as the agent */
         rlvc_min_tree_result found;
         allow(m, attempt == ATTEMPT_OWN ? -1.0f : attempt == ATTEMPT_TIES ? 0.0f : share);
         memset(&found, 0, sizeof found);
@@ -288,7 +288,6 @@ static int seek(maker *m, rlvc_policy_info *info) {
             return 1;
         share *= 0.25f;
     }
-    return 0;
 }
 
 /* Makes the smaller of the two trees the policy's. */

@@ -72,12 +72,12 @@ static float bounded(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
     return value < 0.0f ? -most : most;
 }
 
-/* V(c), once every Q(c, a) of the class is there. */
-static void back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
-                    rlvc_values *values) {
+/* V(c), once every Q(c, a) of the class is there, whose greatest is `best`. */
+static void back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input, rlvc_values *values,
+                    float best) {
     uint32_t c = solver->class_id;
     float before = values->value[c];
-    float after = rlvc_values_best(values, c);
+    float after = best;
     if (HAS_IMPROVING && solver->improve) {
         size_t pair = rlvc_values_pair(values, c, values->trial[c]);
         after = rlvc_values_counts(values, pair) ? values->q[pair] : before;
@@ -105,8 +105,52 @@ static uint32_t sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input
         values->q[pair] = 0.0f;
     rlvc_sum_clear(&solver->sum);
     if (++solver->action == values->actions)
-        back_up(solver, input, values);
+        back_up(solver, input, values, rlvc_values_best(values, solver->class_id));
     return 1;
+}
+
+/* The mean value of what follows a pair, by transitions [at, end): as rlvc_model_add makes it. The
+ * first term needs no compensation. */
+static float mean_value(const rlvc_transition *transition, uint32_t at, uint32_t end,
+                        const float *value) {
+    rlvc_sum sum = {0.0f, 0.0f, 0u};
+    for (uint32_t i = at; i < end; i++) {
+        const uint32_t next = transition[i].next;
+        const float term = next == RLVC_NO_CLASS ? 0.0f : value[next];
+        if (i > at) {
+            rlvc_sum_add(&sum, term, transition[i].count);
+        } else {
+            sum.sum = term * (float)transition[i].count + 0.0f; /* not -0 */
+            sum.weight = transition[i].count;
+        }
+    }
+    return rlvc_sum_mean(&sum);
+}
+
+/* All of a class at once, where the budget allows it: the same arithmetic, without what it takes to
+ * stop between two transitions. */
+static uint32_t sweep_class(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                            rlvc_values *values) {
+    const uint32_t *begin = values->begin.transition;
+    const size_t first = rlvc_values_pair(values, solver->class_id, 0);
+    const size_t last = first + values->actions;
+    float best = values->value[solver->class_id];
+    int any = 0;
+    for (size_t pair = first; pair < last; pair++) {
+        float q = values->tried[pair] == 0 ? 0.0f : values->q[pair];
+        if (begin[pair] < begin[pair + 1u])
+            q = values->pair.reward[pair] +
+                input->discount *
+                    mean_value(input->transition, begin[pair], begin[pair + 1u], values->value);
+        values->q[pair] = q;
+        if (values->tried[pair] > 0 && (!any || q > best)) {
+            best = q;
+            any = 1;
+        }
+    }
+    solver->transition = begin[last];
+    back_up(solver, input, values, best);
+    return begin[last] - begin[first] + values->actions;
 }
 
 /* Makes the policy of one class greedy. An action must be better than the present one by more than
@@ -132,11 +176,21 @@ static void improve(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
     solver->largest = 0.0f;
 }
 
+/* Is the cursor at the beginning of a class that the budget is enough for? */
+static int is_whole(const rlvc_solver_cursor *solver, const rlvc_values *values, uint32_t budget) {
+    const size_t first = rlvc_values_pair(values, solver->class_id, 0);
+    const uint32_t end = values->begin.transition[first + values->actions];
+    return solver->action == 0 && solver->transition == values->begin.transition[first] &&
+           budget >= end - solver->transition + values->actions;
+}
+
 /* Works on the phase; returns the work. */
 static uint32_t step_phase(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                            rlvc_values *values, uint32_t budget) {
     if (!HAS_IMPROVING || solver->phase == SWEEP)
-        return sweep(solver, input, values, budget);
+        return RLVC_AT_ONCE && is_whole(solver, values, budget)
+                   ? sweep_class(solver, input, values)
+                   : sweep(solver, input, values, budget);
     improve(solver, input, values);
     return 1;
 }
