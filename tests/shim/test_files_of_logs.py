@@ -332,7 +332,8 @@ def test_robomimic_and_transitions(tmp_path):
             group["actions"], group["rewards"] = e["actions"], e["rewards"]
             group["terminated"], group["truncated"] = e["terminals"], e["timeouts"]
             group["states"] = np.zeros((len(e["actions"]), 5))
-    log = logs.read(tmp_path / "demo.hdf5")
+    with pytest.warns(errors.LogWarning, match="states: left out, as no column has the next value"):
+        log = logs.read(tmp_path / "demo.hdf5")
     is_the_walk(log)
     assert "ignored: states" in log.describe()
     with h5py.File(tmp_path / "log.hdf5", "w") as file:
@@ -385,6 +386,17 @@ def test_names_by_the_caller(tmp_path):
         logs.read(file, roles={**named, "action": "x"})
 
 
+def test_what_has_no_next_value_is_left_out():
+    log = {"x": BASE["cell"], "order": BASE["step"], "a": BASE["action"], "r": BASE["reward"],
+           "next_x": BASE["next"], "d": BASE["terminated"]}  # fmt: skip
+    with pytest.warns(errors.LogWarning, match="order: left out"):
+        read = logs.read(log)
+    is_the_walk(read, truncated=False)
+    with pytest.warns(errors.LogWarning, match="left out, as what was observed next"):
+        both = logs.read({**log, "episode": BASE["episode"]}, columns=["x", "order"])
+    assert list(both.space.columns) == ["x", "order"]
+
+
 def test_the_future_is_not_observed(tmp_path):
     """A column that is another one a row ahead is refused, whatever it is called."""
     file = tmp_path / "log.csv"
@@ -395,6 +407,20 @@ def test_the_future_is_not_observed(tmp_path):
         log = logs.read(file, roles={"observation": ["x"], "next_observation": [ahead]})
         is_the_walk(log)
         assert list(log.space.columns) == ["x"]
+
+
+def test_texts_of_numbers_and_arrays_of_records():
+    named = arrays()
+    texts = {**named, "rewards": named["rewards"].astype(str), "actions": [str(a) for a in BASE["action"]]}
+    texts["observations"] = named["observations"].astype(str)
+    is_the_walk(logs.read(texts))
+    made = {**named, "observations": np.array([(c,) for c in BASE["cell"]], [("x", "f4")]),
+            "next_observations": np.array([(c,) for c in BASE["next"]], [("x", "f4")])}  # fmt: skip
+    is_the_walk(logs.read(made))
+    short = {"x": BASE["cell"], "a": BASE["action"], "r": BASE["reward"], "t": BASE["terminated"], "next_x": BASE["next"]}
+    log = logs.read(short)
+    is_the_walk(log, truncated=False)
+    assert "t: 0 and 1, so it tells of ends" in log.describe()
 
 
 @pytest.mark.parametrize(
@@ -410,7 +436,7 @@ def test_the_future_is_not_observed(tmp_path):
         (json.dumps([1, 2]).encode(), "index 0: 1 is no object of columns"),
         (json.dumps({"obs": "BCJNGGhAXg==", "actions": [0], "rewards": [1], "dones": [1]}).encode(), "obs: not an array but 'BCJNGGhAXg==': write it unpacked"),
         (b'state,action,reward,done\n"1,000",0,1,1\n', "line 2: state: 1,000 may be a thousand"),
-        (b"x,action,reward,next_x,status\n1,0,1,1,end\n", "no column terminated"),
+        (b"x,action,reward,status\n1,0,1,end\n", "no column terminated"),
         (b"x,action,reward,done\n1,0,1,maybe\n2,0,1,sure\n", "done: words (maybe, sure) are no flags"),
         (b"x,action,reward,done\n1,0,1e300,1\n", "line 2: reward: 1e+300 is not in"),
     ],

@@ -120,6 +120,43 @@ def _add_env_options(add: Any) -> None:
         help="argument of the environment, such as is_slippery=False")  # fmt: skip
 
 
+def _add_percepts(add: Any) -> None:
+    """What is observed, and which actions there are."""
+    add(
+        "--thresholds",
+        type=_seed,
+        metavar="N",
+        help="maximum number of cutpoints of a component; 0: no limit",
+    )
+    add("--names", type=_listed, metavar="A,B,...", help="names of the numbers of an observation")
+    add(
+        "--bins",
+        type=_bins,
+        metavar="N",
+        help="number of discrete actions for each element of a Box of actions",
+    )
+    add("--hold", type=_whole, metavar="N", help="number of steps for which an action is held")
+    add(
+        "--history",
+        type=_whole,
+        metavar="N",
+        help="observe the last N observations, and the actions between them",
+    )
+
+
+def _add_outputs(add: Any) -> None:
+    """What is made of a run."""
+    add("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
+    add("--c", metavar="FILE", help="write the policy as a C header; -: print it")
+    add(
+        "--save",
+        metavar="FILE",
+        help="write the run: show, evaluate, explain, plot and export read it",
+    )
+    add("--compact", action="store_true", help="use the smallest tree that acts as well")
+    add("--quiet", action="store_true", help="show no progress bar")
+
+
 def _add_learn(commands: Any) -> None:
     learn = commands.add_parser(
         "learn",
@@ -142,26 +179,7 @@ def _add_learn(commands: Any) -> None:
     add("--run", metavar="FILE", help="go on with a saved run in ENV")
     _add_env_options(add)
     add("--every", type=_whole, metavar="N", help="interactions between two learning steps")
-    add(
-        "--thresholds",
-        type=_seed,
-        metavar="N",
-        help="maximum number of cutpoints of a component; 0: no limit",
-    )
-    add("--names", type=_listed, metavar="A,B,...", help="names of the numbers of an observation")
-    add(
-        "--bins",
-        type=_bins,
-        metavar="N",
-        help="number of discrete actions for each element of a Box of actions",
-    )
-    add("--hold", type=_whole, metavar="N", help="number of steps for which an action is held")
-    add(
-        "--history",
-        type=_whole,
-        metavar="N",
-        help="observe the last N observations, and the actions between them",
-    )
+    _add_percepts(add)
     _add_log_options(add)
     add("--actions", type=_whole, metavar="N", help="number of actions of --log")
     add(
@@ -169,15 +187,7 @@ def _add_learn(commands: Any) -> None:
     )
     add("--episodes", type=_seed, metavar="N", default=100,
         help="number of episodes to play after learning (default: %(default)s)")  # fmt: skip
-    add("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
-    add("--c", metavar="FILE", help="write the policy as a C header; -: print it")
-    add(
-        "--save",
-        metavar="FILE",
-        help="write the run: show, evaluate, explain, plot and export read it",
-    )
-    add("--compact", action="store_true", help="use the smallest tree that acts as well")
-    add("--quiet", action="store_true", help="show no progress bar")
+    _add_outputs(add)
     add("--method", choices=get_args(Method),
         help="how to learn (default: planner on real numbers from ENV, else classes)")  # fmt: skip
     config = learn.add_argument_group(

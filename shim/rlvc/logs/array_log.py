@@ -16,6 +16,7 @@ from ..learning.actions import Actions
 from .log import Log
 from .roles import roles_of
 from .table import Array, Table, from_table
+from .values import MISSING, is_value
 
 
 def from_arrays(
@@ -129,6 +130,8 @@ def _flat(arrays: Mapping[Any, Any], start: str = "") -> Iterator[tuple[str, Any
         name = f"{start}{key}"
         if name.startswith("__"):
             continue  # of MATLAB
+        if isinstance(value, np.ndarray) and value.dtype.names:
+            value = {field: value[field] for field in value.dtype.names}
         if isinstance(value, Mapping):
             yield from _flat(value, f"{name}.")
         else:
@@ -142,6 +145,8 @@ def _array(values: Any, name: str, where: str) -> Array:
         array = np.asarray(values)
         if array.dtype == object:
             array = _plainer(array)
+        elif array.dtype.kind == "U":
+            array = _spelled(array)
     except (TypeError, ValueError, OverflowError) as error:
         raise LogError(f"{where}: {name}: not an array: {error}") from None
     if array.ndim == 0:
@@ -159,7 +164,7 @@ def _plainer(array: Array) -> Array:
     listed = [None if _is_missing(value) else value for value in array.ravel()]
     words = [isinstance(value, str) for value in listed if value is not None]
     if words and all(words):
-        return np.array(listed, object).reshape(array.shape)
+        return _spelled(np.array(listed, object).reshape(array.shape))
     numbers = [np.nan if value is None else value for value in listed]
     first = next((value for value in listed if value is not None), None)
     if isinstance(first, list | tuple | np.ndarray):
@@ -169,6 +174,15 @@ def _plainer(array: Array) -> Array:
             raise ValueError("arrays of several shapes: give each episode's observations one shape")
         return np.stack(rows)
     return np.array(numbers, np.float64).reshape(array.shape)
+
+
+def _spelled(array: Array) -> Array:
+    """Texts that are numbers, all of them, as such; blanks are missing."""
+    texts = ["" if value is None else value.strip() for value in array.ravel().tolist()]
+    if not any(texts) or not all(is_value(text) for text in texts):
+        return array
+    numbers = [np.nan if text.lower() in MISSING else float(text) for text in texts]
+    return np.array(numbers).reshape(array.shape)
 
 
 def _is_missing(value: Any) -> bool:

@@ -11,14 +11,14 @@ from typing import Any
 from ..errors import ConfigError, LogError
 
 NAMES = {
-    "action": "action actions a act acts control action_taken chosen_action selected_action "
+    "action": "action actions a act acts ac acs control action_taken chosen_action selected_action "
     "action_id action_index",
     "reward": "reward rewards r rew rews reward_received immediate_reward",
     "terminated": "terminated terminateds terminal terminals termination terminations "
-    "is_terminal terminate",
+    "is_terminal terminate term",
     "done": "done dones is_done end ended episode_terminals episode_end finished game_over",
     "truncated": "truncated truncation truncations truncateds timeout timeouts time_limit timelimit "
-    "timelimit.truncated truncate",
+    "timelimit.truncated truncate trunc",
     "exploited": "exploited greedy",
     "episode": "episode episodes episode_id episode_ids episode_index episode_number ep eps_id "
     "trajectory trajectory_id traj traj_id trajectory_index",
@@ -38,7 +38,7 @@ _LATE = {
 
 _GIVEN = (*NAMES, "observation", "next_observation")
 _ROLE = {name: role for role, names in NAMES.items() for name in names.split()}
-_SEEN = "obs observation observations state states s"
+_SEEN = "obs ob observation observations state states s"
 _AFTER = {"obs2": "obs", "s2": "s", "state2": "state", "sp": "s", "s_": "s", "nextstate": "state",
           "nextobs": "obs"}  # fmt: skip
 _NEXT = re.compile(r"next[_. /](.+)|(.+?)[_. ](?:next|prime|after)|(.+)'")
@@ -71,6 +71,8 @@ class Roles:
     ignored : list of str
     named : bool
         Whether the columns of the observation are named so, and not just all others.
+    alone : list of str
+        Of the ignored ones those that would be observed, if there were a column for their next value.
     """
 
     one: dict[str, str]
@@ -79,6 +81,7 @@ class Roles:
     after: list[str]
     ignored: list[str]
     named: bool
+    alone: list[str]
 
     def notes(self) -> list[str]:
         """Say what was understood, in lines."""
@@ -99,7 +102,7 @@ class Roles:
 def _spelled(name: str) -> str:
     """A name in small letters with underscores, without its unit."""
     name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name.strip().lstrip("%#_/"))  # nextState
-    name = re.sub(r"\(t\)$", "_t", re.sub(r"\(t ?\+ ?1\)$", "_t+1", name))
+    name = re.sub(r"_?[\[({]t( ?\+ ?1)?[\])}]$", lambda m: "_t+1" if m[1] else "_t", name)
     name = re.sub(r"\s*(\[[^\]\d]*\]|\([^)\d]*\))$", "", name)  # a unit
     name = re.sub(r"[\s-]+", "_", name.lower())
     return re.sub(r"(?<=.)[./]data$", "", name)  # of ROS
@@ -127,6 +130,9 @@ def _before(name: str, names: Collection[str]) -> str | None:
     match = _NEXT.fullmatch(name)
     if match:
         return next(part for part in match.groups() if part is not None)
+    match = re.fullmatch(r"(.+?)([_. ])(?:next|prime)([_. ].+)", name)  # obs_next_0
+    if match:
+        return match[1] + match[3]
     rest = re.sub(r"^(new|to)_", "", name)
     pairs = name.startswith("new_") or f"from_{rest}" in names
     return rest if rest != name and pairs and (rest in names or _is_seen(rest)) else None
@@ -231,8 +237,10 @@ def roles_of(
     _need(actions, one, seen, listed, where)
     if after and len(after) != len(seen):
         raise LogError(f"{where}: roles: {len(after)} next observations for {', '.join(seen)}")
-    after = after or _matched(next_ones, seen, plains, ignored)
-    return Roles(one, actions, seen, after, ignored, bool(named))
+    before = list(seen)
+    after = after or _matched(next_ones, seen, plains, ignored, bool(wanted))
+    alone = [name for name in before if name not in seen]
+    return Roles(one, actions, seen, after, ignored, bool(named), alone)
 
 
 def _checked(
@@ -267,7 +275,7 @@ def _by_name(
         more = [name for name in names if plains[name] in late.split()]
         if role not in found and role not in known and more:
             found[role] = more[:1]
-    if {"s", "a", "r"} <= set(plains.values()) and not {"done", "terminated"} & set(found):
+    if {"a", "r"} <= set(plains.values()) and not {"done", "terminated"} & set(found):
         ends = [name for name in names if plains[name] == "d"]
         found |= {"done": ends} if ends else {}
     if "action" not in found and "action" not in known:  # action_left, action_right
@@ -307,21 +315,19 @@ def _need(
 
 
 def _matched(
-    after: list[str], seen: list[str], plains: dict[str, str], ignored: list[str]
+    after: list[str], seen: list[str], plains: dict[str, str], ignored: list[str], wanted: bool
 ) -> list[str]:
-    """Put the next observation's columns in the order of the observation's; none if one is missing."""
+    """Put the next observation's columns in the order of the observation's; none if one is missing.
+
+    But columns of the observation that the caller did not name are left out if they have none.
+    """
     names = plains.values()
     of = {_before(plains[name], names): name for name in after}
     found = [of[plains[name]] for name in seen if plains[name] in of]
-    if 0 < len(found) < len(seen):
-        heads = [re.split(r"[./]", plains[name])[0] for name in seen]
-        with_next = {head for head, name in zip(heads, seen, strict=True) if plains[name] in of}
-        without = [name for head, name in zip(heads, seen, strict=True) if plains[name] not in of]
-        if all(plains[name] in _SEEN.split() for name in without) and not with_next & {
-            plains[name] for name in without
-        }:  # obs/x with next_obs/x, beside states of the simulator
-            ignored += without
-            seen[:] = [name for name in seen if name not in without]
+    if found and not wanted:  # what has no next value is no part of these tuples
+        without = [name for name in seen if plains[name] not in of]
+        ignored += without
+        seen[:] = [name for name in seen if name not in without]
     if len(found) < len(seen):
         if len(seen) == len(after) == 1:
             return after

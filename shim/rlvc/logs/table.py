@@ -101,6 +101,7 @@ def from_table(
     table = _in_order(table, roles)
     if not len(next(iter(table.columns.values()))):
         raise LogError(f"{table.where}: there is no interaction")
+    _see_ends(table, roles)
     rows = _rows(table, roles)
     if columns is None and "observation" not in (given or {}):
         _refuse_leaks(table, roles, rows)
@@ -133,6 +134,9 @@ def from_table(
     notes = [*table.notes, *roles.notes()]
     log = Log(before, after, actions, rewards, ends, exploited, table.where, meaning, space, notes)
     _tell(log, table, rows, usable, kept)
+    if roles.alone:
+        text = f"{', '.join(roles.alone)}: left out, as no column has the next value of it"
+        warn(log, f"{text}: columns= would take it, and what is next from the next row")
     for name in roles.seen:
         warn_of_collapse(log, name, table.columns[name][chosen])
     return checked(log)
@@ -179,7 +183,7 @@ def _tell(log: Log, table: Table, rows: _Rows, usable: Array, kept: Array) -> No
     if len(blank):
         warn(
             log,
-            f"{counted(len(blank), 'row')} without an observation left out, first "
+            f"{counted(len(blank), 'row')} left out, for want of an observation, first "
             f"{table.place(blank[0])}",
         )
     lost = np.flatnonzero(rows.acted & usable & ~kept)
@@ -250,6 +254,16 @@ def _in_order(table: Table, roles: Roles) -> Table:
     return dataclasses.replace(
         table, columns=moved, place=lambda i: place(int(order[i])), parts=parts
     )
+
+
+def _see_ends(table: Table, roles: Roles) -> None:
+    """Where nothing tells of ends, a column t of 0 and 1 is terminated, and not a step."""
+    name = roles.one.get("step", "")
+    if set(roles.one) & {"terminated", "done", "truncated", "first", "last", "episode"}:
+        return
+    if name.lower() == "t" and np.isin(table.columns[name], (0, 1)).all():
+        roles.one["terminated"] = roles.one.pop("step")
+        table.notes.append(f"{name}: 0 and 1, so it tells of ends")
 
 
 def _rows(table: Table, roles: Roles) -> _Rows:
