@@ -4,8 +4,8 @@
 
 Percepts are independent random bits, rewards are random and independent of percept and action, and the agent
 learns again and again from a growing database: whatever it splits by is chance. config.alpha is the
-probability, at most, that a run grows any test. With --shift there is something to learn: how soon is it
-found?
+probability, at most, that a run grows any test. In the end there is a world of 100 classes to learn: how many trees
+test a bit that has nothing to do with it? With --shift there is something to learn: how soon is it found?
 
 RLVC_TESTING_LIB=build/shipped/core/librlvc_testing.so tests/oracle/false_splits.py
 """
@@ -70,6 +70,28 @@ def grows_staying(task, seed, interactions, every, bits=18, actions=4, **fields)
     return 0
 
 
+def tests_noise(seed, interactions=6000, every=300, noise=18, side=10, **fields):
+    """The classes of a tree that learns a world of side * side cells, whose rewards are normal with a mean of the
+    cell's, and how many of its tests are of noise."""
+    rng = numpy.random.default_rng(seed)
+    mean = 3 * rng.normal(size=(side, side))
+    agent = binding.Agent(8 + noise, 4, capacity=interactions, classes=4 * side * side, seed=seed, **fields)
+    place = numpy.zeros(2, int)
+
+    def see():
+        return numpy.concatenate([(place[:, None] >> numpy.arange(4) & 1).ravel(), rng.integers(0, 2, noise)])
+
+    agent.begin(see())
+    for t in range(1, interactions + 1):
+        action, exploited = agent.act()
+        earned = float(numpy.float32(mean[tuple(place)] + rng.normal()))
+        place = (place + [(1, 0), (0, 1), (-1, 0), (0, -1)][action]) % side
+        agent.observe(action, exploited, earned, see(), binding.GOES_ON)
+        if t % every == 0:
+            agent.learn()
+    return agent.stats().classes, sum(bit >= 8 for _, bit in agent.splits())
+
+
 def count(task, runs, *arguments, **fields):
     return sum(grows(task, seed, *arguments, **fields) > 0 for seed in range(runs))
 
@@ -95,6 +117,10 @@ def main():
         grown = sum(grows_staying(task, seed, options.interactions, options.every, alpha=options.alpha,
                                   score=SCORES[options.score]) > 0 for seed in range(options.runs))
         print(f"{task:12} {grown:4} of {options.runs} runs grew a test", flush=True)
+    if not options.shift:
+        trees = [tests_noise(seed, alpha=options.alpha) for seed in range(options.runs)]
+        print(f"100 classes  {sum(false > 0 for _, false in trees):4} of {options.runs} trees test noise;",
+              f"they have {min(size for size, _ in trees)} to {max(size for size, _ in trees)} classes", flush=True)
 
 
 if __name__ == "__main__":

@@ -15,5 +15,10 @@ def test_seldom(task, score):
     assert false_splits.count(task, RUNS, INTERACTIONS, EVERY, alpha=0.05, score=score) < 6
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_large_tree_tests_no_noise(seed):
+    assert false_splits.tests_noise(seed, alpha=0.05) == (100, 0)
+
+
 def test_they_would_be_seen():
     assert false_splits.count("coin", RUNS, INTERACTIONS, EVERY, alpha=1.0) > RUNS // 10

@@ -3,6 +3,7 @@
 """Learns mazes that are drawn at random, with the defaults of run_gridworld.
 
     tools/bench/mazes.py build/release/tools/run_gridworld/run_gridworld [KIND...]
+        [--discount G] [--interactions N]
 
 Kinds: `rooms15` and `rooms30` (22 % of the cells are walls, the exit is at the centre), `corridors15`
 and `corridors31` (perfect mazes: one way from each cell to the exit in a corner). A line is a maze:
@@ -75,23 +76,25 @@ def text_of(side, free, exit_cell):
     return "".join("".join(mark((x, y)) for x in range(side)) + "\n" for y in range(side))
 
 
-def learn(program, maze, interactions, seed, folder):
+def learn(program, maze, interactions, seed, discount, folder):
     """What run_gridworld reports of a maze."""
     path, report = Path(folder) / "maze.txt", Path(folder) / "report.json"
     path.write_text(maze, encoding="ascii")
     command = [program, "binary", "--maze", path, "--interactions", interactions, "--seed", seed]
+    command += ["--discount", discount]
     subprocess.run([*map(str, command), "--json", report], check=True, stdout=subprocess.DEVNULL)
     return json.loads(report.read_bytes())
 
 
-def compare(program, kind, folder):
-    side, mazes, interactions = KINDS[kind]
+def compare(program, kind, discount, interactions, folder):
+    side, mazes, usual = KINDS[kind]
+    interactions = interactions or usual
     draw_maze = rooms if kind.startswith("rooms") else corridors
-    print(f"{kind}: {side} x {side}, {interactions:,} interactions")
+    print(f"{kind}: {side} x {side}, {interactions:,} interactions, discount {discount:g}")
     runs = []
     for seed in range(1, mazes + 1):
         maze = text_of(side, *draw_maze(side, random.Random(seed)))
-        run = learn(program, maze, interactions, seed, folder)
+        run = learn(program, maze, interactions, seed, discount, folder)
         runs.append(run)
         print(
             f"  {seed:2}  {run['interactions_to_optimal'] or '-':>6}",
@@ -115,12 +118,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program")
     parser.add_argument("kinds", nargs="*", metavar="KIND", help=", ".join(KINDS))
+    parser.add_argument("--discount", type=float, default=0.9, metavar="G")
+    parser.add_argument("--interactions", type=int, metavar="N", help="default: the kind's")
     arguments = parser.parse_args()
     if unknown := set(arguments.kinds) - set(KINDS):
         sys.exit(f"no such kind: {', '.join(unknown)}")
     with tempfile.TemporaryDirectory() as folder:
         for kind in arguments.kinds or KINDS:
-            compare(arguments.program, kind, folder)
+            compare(arguments.program, kind, arguments.discount, arguments.interactions, folder)
 
 
 if __name__ == "__main__":
