@@ -74,7 +74,11 @@ class Reference:
                     self.page_of.setdefault(name, header.stem)
 
     def linked(self, text, here):
-        """A text in Markdown whose names are links."""
+        """A text in Markdown whose names are links. What stands between backticks there is code here."""
+        parts = re.split(r"(`[^`]+`)", text)
+        return "".join(part if i % 2 else self.linked_prose(part, here) for i, part in enumerate(parts))
+
+    def linked_prose(self, text, here):
         text = re.sub(r"([*_\\`\[\]])", r"\\\1", html.escape(text, quote=False))
 
         def link(match):
