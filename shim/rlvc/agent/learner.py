@@ -263,7 +263,7 @@ class Learner(Handle, Generic[_D, _C]):
         ----------
         domain : Domain or int
             The domain of the original.
-        config : config or int
+        config : Config, PlannerConfig or int
             The config of the original, the same in every field.
         snapshot : bytes
             The result of :meth:`snapshot`.
