@@ -133,7 +133,7 @@ def from_table(
     ends = ends_of(rows.terminated, rows.truncated | last_seen)[chosen]
     notes = [*table.notes, *roles.notes()]
     log = Log(before, after, actions, rewards, ends, exploited, table.where, meaning, space, notes)
-    _tell(log, table, rows, usable, kept)
+    _tell(log, table, roles, rows, usable, kept)
     if roles.alone:
         text = f"{', '.join(roles.alone)}: left out, as no column has the next value of it"
         warn(log, f"{text}: columns= would take it, and what is next from the next row")
@@ -177,7 +177,7 @@ def _refuse_leaks(table: Table, roles: Roles, rows: _Rows) -> None:
                 )
 
 
-def _tell(log: Log, table: Table, rows: _Rows, usable: Array, kept: Array) -> None:
+def _tell(log: Log, table: Table, roles: Roles, rows: _Rows, usable: Array, kept: Array) -> None:
     """Say which rows were dropped, and why."""
     blank = np.flatnonzero(~usable)
     if len(blank):
@@ -198,10 +198,10 @@ def _tell(log: Log, table: Table, rows: _Rows, usable: Array, kept: Array) -> No
         else:
             warn(log, text)
     if not rows.terminated.any() and not rows.truncated.any() and rows.same[:-1].all():
-        _tell_of_ends(log)
+        _tell_of_ends(log, bool({"terminated", "done", "truncated"} & set(roles.one)))
 
 
-def _tell_of_ends(log: Log) -> None:
+def _tell_of_ends(log: Log, told: bool) -> None:
     """Say that no episode ends, or that episodes end and nothing says how."""
     breaks = 0
     if isinstance(log.before, dict):
@@ -212,7 +212,9 @@ def _tell_of_ends(log: Log) -> None:
     elif isinstance(log.before, np.ndarray):
         differ = log.after[:-1] != log.before[1:]
         breaks = int(differ.reshape(len(differ), -1).any(axis=1).sum())
-    if breaks:
+    if breaks and told:
+        log.notes.append(f"no episode ends; after {breaks} rows the next one is of another time")
+    elif breaks:
         warn(
             log,
             f"{counted(breaks, 'episode')} broken off, and no column says whether they terminated: "
