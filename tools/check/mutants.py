@@ -152,7 +152,7 @@ def build(workers):
     gcc, clang = [*ccache, "gcc"], ["clang-19"]
     helpers = [*(ROOT / "examples/gridworld").glob("*.c"), ROOT / "examples/balance/cart_pole.c"]
     include = [f"-I{ROOT}/examples/gridworld", f"-I{ROOT}/examples/balance",
-               f'-DRLVC_GOLDEN_DIR="{ROOT}/tests/golden"', "-DRLVC_POWER_CYCLES=20u"]
+               f'-DRLVC_GOLDEN_DIR="{ROOT}/tests/golden"', "-DRLVC_POWER_CYCLES=20u", "-DRLVC_STRIDE=7u"]
     tests = sorted((ROOT / "tests/core").glob("test_*.c"))
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
         made = [pool.submit(compiled, source, objects, gcc, ["-O1"]) for source in core_sources()]
@@ -171,18 +171,22 @@ def build(workers):
     return [test.stem for test in tests]
 
 
-def reached_by(tests):
-    """Of each function the tests that call it, and the processor time that each test takes."""
+def reached_by(tests, most):
+    """Of each function the tests that call it, and the processor time that each test takes; without the tests that
+    take more than `most` seconds."""
+    limit = None if math.isinf(most) else math.ceil(most) + 1
     calls, seconds = {}, {}
     for test in tests:
         profile = BUILD / f"{test}.profraw"
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = run([BUILD / test], cwd=BUILD, env=os.environ | {"LD_LIBRARY_PATH": str(BUILD / "counting"),
+        done = run([BUILD / test], limit, cwd=BUILD, env=os.environ | {"LD_LIBRARY_PATH": str(BUILD / "counting"),
                                                                 "LLVM_PROFILE_FILE": str(profile)})
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds[test] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        if seconds[test] > most:
+            continue
         if not done:
             raise SystemExit(f"{test} fails without a mutant: run tools/test dev")
-        seconds[test] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         if not profile.exists():
             continue  # it calls no function of the core
         merged = BUILD / f"{test}.profdata"
@@ -247,9 +251,7 @@ def main():
     mutants = ordered(mutant for file in files for mutant in mutants_of(file))
     last = arguments.skip + arguments.sample if arguments.sample else len(mutants)
     chosen = mutants[arguments.skip:last]
-    calls, seconds = reached_by(build(arguments.workers))
-    calls = {function: [test for test in tests if seconds[test] <= arguments.seconds]
-             for function, tests in calls.items()}
+    calls, seconds = reached_by(build(arguments.workers), arguments.seconds)
     known, counts = judged(), {}
     with concurrent.futures.ThreadPoolExecutor(arguments.workers) as pool:
         verdicts = pool.map(functools.partial(tried, calls=calls, seconds=seconds), chosen)
