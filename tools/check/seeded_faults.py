@@ -79,7 +79,7 @@ FAULTS = [
           "        records->ends[i] = record->end;\n",
           "        records->ends[i] = records->ends[i + 1] = record->end;\n", "", r"AddressSanitizer: .*-overflow"),
     Fault("shim", "a function that is not annotated", "shim/rlvc/report.py",
-          "def _cells(run: Run, env: Any) -> dict[str, Any]:", "def _cells(run: Run, env: Any):",
+          "def _cells(run: Any, env: Any) -> dict[str, Any]:", "def _cells(run: Any, env: Any):",
           "", r"Function is missing a return type annotation"),
 ]
 
