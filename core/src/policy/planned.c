@@ -82,15 +82,23 @@ static rlvc_status make(const rlvc_domain *domain, uint32_t actions, void *memor
     return RLVC_OK;
 }
 
+static void copy_node(const rlvc_planner_test *from, rlvc_small_node *node) {
+    node->cut = from->cutpoint;
+    node->component = from->component;
+    node->child = from->child;
+    node->action = from->action;
+}
+
+/* In pairs of children: test j has nodes 2j + 1 and 2j + 2. */
 static void copy_nodes(const nodes *from, rlvc_small_tree *tree) {
-    for (uint32_t k = 0; k < from->count; k++) {
-        tree->node[k].cut = from->node[k].cutpoint;
-        tree->node[k].component = from->node[k].component;
-        tree->node[k].child = from->node[k].child;
-        tree->node[k].action = from->node[k].action;
+    const uint32_t tests = from->count / 2u;
+    copy_node(from->node, tree->node);
+    for (uint32_t j = 0; j < tests; j++) {
+        copy_node(from->node + 2u * j + 1u, tree->node + 2u * j + 1u);
+        copy_node(from->node + 2u * j + 2u, tree->node + 2u * j + 2u);
     }
-    tree->nodes = (uint8_t)from->count;
-    tree->leaves = (uint8_t)(from->count / 2u + 1u);
+    tree->nodes = (uint8_t)(2u * tests + 1u);
+    tree->leaves = (uint8_t)(tests + 1u);
 }
 
 rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint32_t count, uint32_t actions,
