@@ -60,9 +60,49 @@ static void test_many_components(void **state) {
     assert_true(statistics.fits > 0);
 }
 
+/* In builds that have zones between arrays, the planner's arrays have them as well: each byte may
+ * be touched, and not one behind. */
+static void test_zones(void **state) {
+    (void)state;
+#ifdef RLVC_RED_ZONES
+    rlvc_config config = planner_default(3, 2);
+    rlvc_planner *planner;
+    assert_int_equal(planner_init(&config, memory, sizeof memory, &planner), RLVC_OK);
+    const rlvc_experience *experience = &planner->experience;
+    const rlvc_dynamics *model = planner->model + 1;
+    const struct {
+        const void *array;
+        size_t bytes;
+    } arrays[] = {
+        {planner, sizeof *planner},
+        {experience->percept, (size_t)config.capacity * 3u * sizeof(float)},
+        {experience->reward, config.capacity * sizeof(float)},
+        {experience->action, config.capacity},
+        {experience->end, config.capacity},
+        {planner->sample.row, config.sample * sizeof *planner->sample.row},
+        {model->basis.mean, 3u * sizeof(float)},
+        {model->tree, 4u * sizeof *model->tree},
+        {planner->archive.trial, RLVC_ARCHIVE_POLICIES * sizeof *planner->archive.trial},
+        {planner->start, RLVC_PLANNER_STARTS * 3u * sizeof(float)},
+        {planner->now, 3u * sizeof(float)},
+        {planner->cells, planner->cells_bytes},
+        {planner->fresh, planner->cells_bytes},
+    };
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
+        const unsigned char *array = arrays[i].array;
+        for (size_t k = 0; k < arrays[i].bytes; k++)
+            assert_false(__asan_address_is_poisoned(array + k));
+        assert_true(__asan_address_is_poisoned(array + arrays[i].bytes));
+    }
+#else
+    skip();
+#endif
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_components),
+        cmocka_unit_test(test_zones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
