@@ -20,19 +20,20 @@ def struct(name, /, **fields):
     return type(name, (ctypes.Structure,), {"_fields_": list(fields.items())})
 
 
-Domain = struct("Domain", ctx=POINTER, percept_bytes=U32, feature_bytes=U32, features_max=U32,
+Domain = struct("Domain", ctx=POINTER, percept_bytes=U32, feature_bytes=U32, features_max=U32, kind=U32,
                 exhibits=POINTER, candidates=POINTER, detect=POINTER, oracle=POINTER, name=POINTER,
                 check_percept=POINTER, check_feature=POINTER, percept_words=U32, feature_words=U32,
-                feature_halves=U32)
-Config = struct("Config", actions=U32, capacity=U32, classes=U32, features_at_once=U32,
+                feature_halves=U32, method=POINTER)
+Config = struct("Config", method=POINTER, actions=U32, capacity=U32, classes=U32, features_at_once=U32,
                 min_samples=U32, max_sweeps=U32, seed=U32, criterion=U8, score=U8, solver=U8,
                 continuing=U8, successors=U8, explore=U8, dependence=U8,
                 reserved=U8, discount=FLOAT, epsilon=FLOAT, alpha=FLOAT,
-                alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT, smallest_effect=FLOAT)
+                alpha_known=FLOAT, tolerance=FLOAT, learning_rate=FLOAT, smallest_effect=FLOAT, sample=U32,
+                model_leaves=U32, leaves=U32, horizon=U32, random=U32, candidates=U32, patience=U32)
 Choice = struct("Choice", action=U8, exploited=U8)
 Progress = struct("Progress", work=U32, rounds=U32, splits=U32, done=U8, reserved=U8 * 3)
 Statistics = struct("Statistics", interactions=U64, stored=U32, step=U32, classes=U32, depth=U32,
-                    last_split=U32, refused=U32, sweeps=U32, residual=FLOAT)
+                    last_split=U32, refused=U32, sweeps=U32, residual=FLOAT, solution=U32, reserved=U32)
 Split = struct("Split", class_id=U32, step=U32, action=U32, samples=U32, log_tests=FLOAT,
                score=FLOAT, log_p=FLOAT)
 

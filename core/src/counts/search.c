@@ -117,6 +117,22 @@ static int matters(const rlvc_count_table *table, const rlvc_agent *agent, uint3
     return effect.matters;
 }
 
+/* Weighs a feature in all groups that take part.
+ * @return bit 0 if it is the best of one action so far, bit 1 if it is the best of all together */
+static uint32_t weigh_feature(const rlvc_count_table *table, const rlvc_agent *agent,
+                              uint32_t class_id, uint32_t f, rlvc_evidence *evidence) {
+    rlvc_pooled pool = {0.0f, 0.0f, 0.0f, 0};
+    uint32_t best = 0;
+    for (uint32_t a = 0; a < agent->config.actions; a++) {
+        if (table->cuts[a] == 0)
+            continue;
+        group of = group_of(table, agent, class_id, a);
+        of.cuts = table->cuts[a];
+        best |= (uint32_t)weigh(table, &of, f, evidence, &pool);
+    }
+    return best | (uint32_t)rlvc_evidence_close(evidence, &pool) << 1u;
+}
+
 const void *rlvc_count_search(rlvc_count_table *table, rlvc_agent *agent, uint32_t class_id,
                               rlvc_split *about) {
     static const rlvc_evidence nothing = {
@@ -127,15 +143,9 @@ const void *rlvc_count_search(rlvc_count_table *table, rlvc_agent *agent, uint32
     if (all < agent->config.min_samples || evidence.samples < agent->config.min_samples)
         return NULL;
     for (uint32_t f = 0; f < table->counts->features; f++) {
-        rlvc_pooled pool = nothing.pooled;
-        for (uint32_t a = 0; a < agent->config.actions; a++) {
-            if (table->cuts[a] == 0)
-                continue;
-            group of = group_of(table, agent, class_id, a);
-            of.cuts = table->cuts[a];
-            per_action = weigh(table, &of, f, &evidence, &pool) ? f : per_action;
-        }
-        pooled = rlvc_evidence_close(&evidence, &pool) ? f : pooled;
+        const uint32_t best = weigh_feature(table, agent, class_id, f, &evidence);
+        per_action = best & 1u ? f : per_action;
+        pooled = best & 2u ? f : pooled;
     }
     if (!rlvc_evidence_found(&evidence))
         return NULL;

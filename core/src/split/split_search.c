@@ -420,12 +420,17 @@ static uint32_t test(rlvc_split_cursor *search, const rlvc_split_input *input) {
     return RLVC_TEST_UNITS;
 }
 
+/* A step of a phase that looks at one sample or asks about one. */
+static rlvc_status one_sample(rlvc_split_cursor *search, const rlvc_split_input *input) {
+    if (RLVC_HAS_EFFECT && search->phase == EFFECT)
+        return measure(search, input);
+    return RLVC_HAS_OWN_ORACLE ? consult(search, input) : RLVC_OK;
+}
+
 /* One elementary step of the phase. */
 static rlvc_status advance(rlvc_split_cursor *search, const rlvc_split_input *input,
                            uint32_t budget, uint32_t *used) {
     *used = 1;
-    if (RLVC_HAS_EFFECT && search->phase == EFFECT)
-        return measure(search, input);
     switch (search->phase) {
     case SORT:
         *used = rlvc_sort_step(&search->inner.sort, budget);
@@ -449,7 +454,8 @@ static rlvc_status advance(rlvc_split_cursor *search, const rlvc_split_input *in
         return RLVC_OK;
     case ASK:
     case ANSWER:
-        return RLVC_HAS_OWN_ORACLE ? consult(search, input) : RLVC_OK;
+    case EFFECT:
+        return one_sample(search, input);
     default:
         *used = test(search, input);
         return RLVC_OK;
