@@ -10,6 +10,7 @@
 
 #include "block.h"
 #include "faulty.h"
+#include "policy/worth.h"
 #include "rlvc/min_tree.h"
 #include "rlvc/rlvc.h"
 
@@ -535,6 +536,48 @@ static void test_reentering(void **unused) {
     assert_true(broken.refused > 0);
 }
 
+/* One class, in which action `best` earns 1 and the others nothing, less than nothing, or half:
+ * only what loses no more than it may is allowed. Whatever the memory held before. */
+static void test_what_an_action_loses(void **state) {
+    static const float earned[] = {0.0f, -1.0f, 0.5f};
+    (void)state;
+    for (uint32_t best = 0; best < 3u; best++) {
+        rlvc_domain domain;
+        rlvc_config config;
+        rlvc_agent *agent;
+        rlvc_progress progress;
+        rlvc_worth worth;
+        const unsigned char percept[1] = {0};
+        assert_int_equal(rlvc_bits_domain(BITS, &domain), RLVC_OK);
+        assert_int_equal(rlvc_config_default(&config, &domain, 3), RLVC_OK);
+        config.capacity = 60;
+        config.classes = 1;
+        assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);
+        for (uint32_t i = 0; i < 60u; i++) {
+            const rlvc_choice choice = {(uint8_t)(i % 3u), 0};
+            const float reward = i % 3u == best ? 1.0f : earned[i % 3u];
+            assert_int_equal(rlvc_begin(agent, percept), RLVC_OK);
+            assert_int_equal(rlvc_observe(agent, choice, reward, percept, RLVC_TERMINATED),
+                             RLVC_OK);
+        }
+        assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+        block_fill(place, CANARY, sizeof place);
+        rlvc_arena arena = {(unsigned char *)place, 0};
+        rlvc_worth_carve(&worth, &arena, agent);
+        rlvc_worth_begin(&worth);
+        float least = 1.0f;
+        for (uint32_t a = 0; a < 3u; a++) {
+            assert_true(worth.model.q[a] == (a == best ? 1.0f : earned[a]));
+            least = worth.model.q[a] < least ? worth.model.q[a] : least;
+        }
+        assert_true(worth.spread == 1.0f - least);
+        assert_int_equal(rlvc_worth_allowed(&worth, 0, 0.0f), 1u << best);
+        assert_int_equal(rlvc_worth_allowed(&worth, 0, 0.6f), 1u << best | 1u << 2);
+        assert_int_equal(rlvc_worth_allowed(&worth, 0, 2.0f), 7u);
+        RLVC_UNPOISON(place, sizeof place);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fewer_leaves),
@@ -553,6 +596,7 @@ int main(void) {
         cmocka_unit_test(test_print),
         cmocka_unit_test(test_export),
         cmocka_unit_test(test_reentering),
+        cmocka_unit_test(test_what_an_action_loses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
