@@ -246,6 +246,21 @@ def test_interrupt(tmp_path, number):
     assert (tmp_path / "report.json").read_text() == "the report of before"
 
 
+def test_an_interrupt_keeps_the_finished_runs(tmp_path):
+    arguments = [PROGRAM, "binary", "--runs", "1000", "--interactions", "200", "--json", "report.json"]
+    with subprocess.Popen(arguments, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True, env=ENVIRONMENT) as program:
+        rows = (line for line in program.stdout if re.match(r" *\d+ +[\d,]+ ", line))
+        next(rows)
+        next(rows)  # two runs are done
+        program.send_signal(signal.SIGINT)
+        _, errors = program.communicate(timeout=300)
+    assert program.returncode == 128 + signal.SIGINT
+    said = re.fullmatch(r"run_gridworld: interrupted after (\d+) of 1000 runs, which were kept\n", errors)
+    made = json.loads((tmp_path / "report.json").read_text())
+    assert 2 <= int(said[1]) == len(made["runs"]) < 1000
+
+
 # ------------------------------------------------------------------------- reporting
 
 def neighbour(maze, x, y, step):

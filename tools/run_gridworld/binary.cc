@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "binary.h"
 
+#include "cli/failure.h"
 #include "cli/output_file.h"
 #include "cli/screen.h"
 #include "maze/maze_file.h"
@@ -40,7 +41,14 @@ std::vector<RunResult> run_many(const Options &options, const gridworld_maze &ma
                                step_line(step, maze.free_cells, options.steps));
             }
         };
-        runs.push_back(learn_maze(options, maze, optimum, options.seed + i, show));
+        try {
+            runs.push_back(learn_maze(options, maze, optimum, options.seed + i, show));
+        } catch (const Interrupted &) {
+            if (runs.empty()) {
+                throw;
+            }
+            break; // the finished runs are kept
+        }
         screen.print(run_row(runs.back()));
     }
     screen.print(describe_runs(options, maze, runs));
@@ -72,4 +80,8 @@ void run_binary(int argc, char **argv) {
     dot.write(runs.front().tree_dot);
     export_c.write(runs.front().compaction.policy_c);
     json.write(make_report(options, maze.get(), runs));
+    if (runs.size() < options.runs) {
+        throw Interrupted(std::to_string(runs.size()) + " of " + std::to_string(options.runs) +
+                          " runs, which were kept");
+    }
 }

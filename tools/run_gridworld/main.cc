@@ -68,7 +68,7 @@ int main(int argc, char **argv) {
         run(argc, argv);
         return 0;
     } catch (const Interrupted &interrupted) {
-        complain(std::string("interrupted after ") + interrupted.what() + "; nothing was written");
+        complain(std::string("interrupted after ") + interrupted.what());
         return exit_signal + interrupt_signal();
     } catch (const ReaderGone &) {
         return exit_signal + SIGPIPE;

@@ -19,7 +19,8 @@ class ReaderGone : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Ctrl-C, or another signal to terminate. The message says how much was done.
+// Ctrl-C, or another signal to terminate. The message says how much was done, and what is kept of
+// it.
 class Interrupted : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

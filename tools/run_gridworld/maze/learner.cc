@@ -116,7 +116,7 @@ void Learner::look_for_interrupt() const {
         throw Interrupted(std::to_string(interactions_) + " interactions and " +
                           std::to_string(result_.history.size()) + " of " +
                           std::to_string(options_.steps) + " learning steps of the run with seed " +
-                          std::to_string(result_.seed));
+                          std::to_string(result_.seed) + "; nothing was written");
     }
 }
 

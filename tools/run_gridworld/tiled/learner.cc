@@ -101,7 +101,8 @@ void Run::learn() {
     const auto look_for_interrupt = [this] {
         if (interrupt_signal() != 0) {
             throw Interrupted(std::to_string(result_.interactions) +
-                              " interactions of the run with seed " + std::to_string(result_.seed));
+                              " interactions of the run with seed " + std::to_string(result_.seed) +
+                              "; nothing was written");
         }
     };
     agent_.learn(look_for_interrupt, "in the run with seed " + std::to_string(result_.seed));
