@@ -248,7 +248,7 @@ static void test_callbacks(void **state) {
     domain.exhibits = NULL;
     expect("exhibits", "without exhibits");
     make();
-    domain.kind = 5;
+    domain.kind = 7;
     expect("exhibits", "of a kind that there is none of");
     make();
     domain.name = NULL;
