@@ -56,7 +56,7 @@ FAULTS = [
           "    crc = ~crc;\n", "    crc = ~crc;\n    (void)*(const volatile unsigned char *)(byte + bytes);\n",
           "core", r"AddressSanitizer: .*-buffer-overflow"),
     Fault("asan-ubsan", "a log from outside that is not checked", "core/src/store/log.c",
-          "return record->choice.action < reader->actions && ", "return ", "fuzz.log", r"fuzz\.log .*Failed"),
+          "return record->choice.action < reader->actions && ", "return reader != NULL && ", "fuzz.log", r"fuzz\.log .*Failed"),
     Fault("coverage", "a branch that no test reaches", "core/src/base/rng.c",
           "    rng->state = z ^ (z >> 31);\n",
           "    rng->state = z ^ (z >> 31);\n    if (seed == 0xdeadbeefu)\n        rng->state = 1;\n",
