@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares value iteration on the class-level model with Storm's and QuantEcon's, in one run on one thread.
+"""Compares value iteration on the class-level model with Storm's and QuantEcon's, on one thread.
 
     solvers.py BUILD/tools/bench/bench_solve [--states N,N,...] [--repeats R]
 
-Needs numpy, scipy, stormpy and quantecon; what is not installed is left out. The processes are square grids
-with one exit, 22 % walls, cells that have a way to it, four actions, and moves that slip to a side with probability 0.1 each; a move costs
-1 and the discount is 0.99. All begin with 0 and stop when a sweep changes no value by more than what leaves
-an error of 0.01. To Storm the discount is an end that is reached with probability 0.01. Times are processor
-times without building the model, medians of R; the error is the largest, from policy iteration in double.
+Needs numpy, scipy, stormpy (below 2) and quantecon; of the last two, what is not installed is left out.
+The processes are square grids with one exit, 22 % walls, cells that have a way to it, four actions, and
+moves that slip to a side with probability 0.1 each; a move costs 1 and the discount is 0.99. All begin
+with 0 and stop when a sweep changes no value by more than what leaves an error of 0.01. To Storm the
+discount is an end that is reached with probability 0.01. Times are processor times without building the
+model, medians of R, and as multiples of ours; the error is the largest, from policy iteration in double.
 """
 
 import argparse
@@ -22,9 +23,9 @@ from pathlib import Path
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
-import numpy as np
-from scipy import ndimage, sparse
-from scipy.sparse import linalg
+import numpy as np  # noqa: E402 - after the number of threads is set
+from scipy import ndimage, sparse  # noqa: E402
+from scipy.sparse import linalg  # noqa: E402
 
 ACTIONS, DISCOUNT, TOLERANCE = 4, 0.99, 0.01
 MOVES = ((0, -1), (1, 0), (0, 1), (-1, 0))
@@ -132,15 +133,12 @@ def by_quantecon(grid, repeats):
         np.append(grid.rewards, 0.0), sparse.vstack([pairs, end]).tocsr(), DISCOUNT,
         np.append(states, grid.states), np.append(np.tile(np.arange(ACTIONS), grid.states), 0),
     )  # fmt: skip
-    best = None
     for method in ("value_iteration", "modified_policy_iteration"):
         options = {"method": method, "epsilon": 2 * TOLERANCE, "max_iter": 100000}
         first = np.zeros(grid.states + 1)
         process.solve(v_init=first, **options)  # compiles
         found = timed(repeats, lambda o=options, f=first: process.solve(v_init=f, **o))
         yield f"QuantEcon, {method.replace('_', ' ')}", found[0], np.array(found[1].v)[:-1]
-        best = found
-    return best
 
 
 def by_storm(grid, repeats):
@@ -171,10 +169,8 @@ def by_storm(grid, repeats):
     solver = environment.solver_environment.minmax_solver_environment
     solver.method = stormpy.MinMaxMethod.value_iteration
     solver.precision = stormpy.Rational(CHANGE)
-    found = timed(
-        repeats, lambda: stormpy.model_checking(model, formula, environment=environment, force_fully_observable=False)
-    )
-    return found[0], -np.array(found[1].get_values())[:-1]
+    found = timed(repeats, lambda: stormpy.model_checking(model, formula, environment=environment))
+    yield "Storm, value iteration", found[0], -np.array(found[1].get_values())[:-1]
 
 
 def main():
@@ -191,16 +187,16 @@ def main():
 
         def show(name, seconds, values, of=ours, exact=exact):
             error = np.abs(values - exact).max()
-            print(f"  {name:38} {seconds:9.4f} s  {seconds / of:6.2f} times  error {error:.1e}", flush=True)
+            times = f"{seconds:9.4f} s  {seconds / of:6.2f} times"
+            print(f"  {name:38} {times}  error {error:.1e}", flush=True)
 
         show(f"rlvc, {sweeps} sweeps", ours, values)
-        for name, solve in (("QuantEcon", by_quantecon), ("Storm", by_storm)):
+        for solve in (by_quantecon, by_storm):
             try:
-                rows = list(solve(grid, arguments.repeats)) if name == "QuantEcon" else None
-                for row in rows or [("Storm, value iteration", *solve(grid, arguments.repeats))]:
+                for row in solve(grid, arguments.repeats):
                     show(*row)
             except ImportError as error:
-                print(f"  {name}: not measured: {error}")
+                print(f"  not measured: {error}")
 
 
 if __name__ == "__main__":
