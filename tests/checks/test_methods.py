@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""What a program links of the two methods of learning, and that each of them works where it alone is built in."""
+
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CORE = sorted([*ROOT.glob("core/src/*/*.c"), *ROOT.glob("core/domains/*.c")])
+FLAGS = ["gcc", "-std=c99", "-O1", "-ffp-contract=off", "-ffunction-sections", "-fdata-sections",
+         f"-I{ROOT}/core/include", f"-I{ROOT}/examples/firmware", f"-I{ROOT}/examples/gridworld"]
+SHARED = [ROOT / "examples/firmware/load.c", ROOT / "examples/firmware/port_host.c"]
+EXAMPLES = {  # name: what it is made of, its method's number, what it must not link
+    "firmware": ([*(ROOT / "examples/firmware").glob("r*.c"), ROOT / "examples/firmware/main.c",
+                  *ROOT.glob("examples/gridworld/*.c")], 1, ("rlvc_planner_", "rlvc_planning_", "rlvc_dynamics_")),
+    "balance": (list(ROOT.glob("examples/balance/*.c")), 2,
+                ("rlvc_classes_", "rlvc_split_search_", "rlvc_value_iteration_", "rlvc_learner_")),
+}
+
+
+def built(folder, sources, *flags):
+    """A program, of which the linker has left out what nothing names."""
+    program = folder / "program"
+    subprocess.run([*FLAGS, *flags, *map(str, [*sources, *SHARED, *CORE]), "-Wl,--gc-sections", "-o", str(program)],
+                   check=True)
+    return program
+
+
+def output(command):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_one_method_of_two(tmp_path, name):
+    """Where both are built in, a program on bits has nothing of the planner, and one on numbers nothing of classes;
+    where its own is alone, it learns the same."""
+    sources, method, foreign = EXAMPLES[name]
+    program = built(tmp_path, sources)
+    symbols = output(["nm", program]).split()
+    assert "rlvc_begin" in symbols
+    assert [symbol for symbol in symbols if symbol.startswith(foreign)] == []
+    both = output([program])
+    assert output([built(tmp_path, sources, f"-DRLVC_METHODS={method}")]) == both
