@@ -33,8 +33,8 @@ def output(command):
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_one_method_of_two(tmp_path, name):
-    """Where both are built in, a program on bits has nothing of the planner, and one on numbers nothing of classes;
-    where its own is alone, it learns the same."""
+    """Where both are built in, a program on bits links nothing of the planner, and one on numbers nothing of
+    classes; where its own is alone, it learns the same."""
     sources, method, foreign = EXAMPLES[name]
     program = built(tmp_path, sources)
     symbols = output(["nm", program]).split()

@@ -136,12 +136,26 @@ static void time_chi2(void) {
     }
 }
 
+/* An interaction that the agent has not seen, without which it would have nothing to learn. */
+static rlvc_status observe_one(void) {
+    const rlvc_choice choice = {0, 0};
+    const unsigned char percept[PERCEPT_BYTES] = {1};
+    rlvc_status status = rlvc_begin(robot.agent, percept);
+    if (status == RLVC_OK) {
+        status = rlvc_observe(robot.agent, choice, -1.0f, percept, RLVC_GOES_ON);
+    }
+    return status;
+}
+
 /* One learning step by each of several budgets. */
 static int time_learning(void) {
     static const uint32_t budgets[] = {64, 128, 256, 1024};
     for (uint32_t i = 0; i < sizeof budgets / sizeof *budgets; i++) {
         struct meter learn = unknown;
         rlvc_progress progress;
+        if (observe_one() != RLVC_OK) {
+            return -1;
+        }
         do {
             rlvc_status status = RLVC_OK;
             TIMED(learn, status = rlvc_learn(robot.agent, budgets[i], &progress));
