@@ -27,7 +27,7 @@ SOURCES = [
 INCLUDES = [HERE / "freestanding", HERE, ROOT / "core/include",
             *(ROOT / "examples" / name for name in ("gridworld", "balance", "firmware"))]
 # As everywhere the results must be the same bits: no contraction. The rest is for a small module.
-FLAGS = ["--target=wasm32", "-std=c99", "-O2", "-flto", "-mbulk-memory", "-nostdlib",
+FLAGS = ["--target=wasm32", "-std=c99", "-Oz", "-flto", "-mbulk-memory", "-nostdlib",
          "-ffp-contract=off", "-Wall", "-Wextra", "-Werror"]
 LINK = [f"-Wl,{option}" for option in
         ("--no-entry", "--gc-sections", "--strip-all", "--lto-O2", "-z,stack-size=65536")]

@@ -232,7 +232,7 @@ def test_fingers(page):
     touch(devtools, "touchEnd", [])
     assert page.evaluate("page.then(({lab}) => lab.rows[5])") == "####....."
     assert page.evaluate("scrollY") == before
-    page.get_by_role("tab", name="One decision").tap()
+    page.get_by_role("tab", name="One decision").click()
     page.locator("#path-maze").tap(position={"x": 10, "y": 10})
     assert page.inner_text("#decision").startswith("Cell x = 0, y = 0")
 

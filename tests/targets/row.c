@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 #define ACTIONS 2u
-#define CAPACITY 200u
-#define CLASSES 10u
+#define CAPACITY 160u
+#define CLASSES 8u
 #define BITS 3u
 
 static uint64_t
