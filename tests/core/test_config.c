@@ -247,9 +247,13 @@ static void test_callbacks(void **state) {
     make();
     domain.exhibits = NULL;
     expect("exhibits", "without exhibits");
-    make();
-    domain.kind = 7;
-    expect("exhibits", "of a kind that there is none of");
+    for (uint32_t i = 0; i < 4u; i++) {
+        static const uint32_t unknown[] = {RLVC_DOMAIN_SPATIAL + 1u, 8u + RLVC_DOMAIN_BITS,
+                                           32u + RLVC_DOMAIN_BITS, UINT32_MAX};
+        make();
+        domain.kind = unknown[i];
+        expect("exhibits", "of a kind that there is none of");
+    }
     make();
     domain.name = NULL;
     expect("name", "without name");

@@ -98,12 +98,17 @@ enum {
     WRONG_PATIENCE
 };
 
+/* Is a domain of a kind that there is, and that is built in? */
+static int is_known(uint32_t kind) {
+    return kind < 32u && ((uint32_t)(RLVC_DOMAINS) >> kind & 1u);
+}
+
 static int wrong_in_domain(const rlvc_domain *domain) {
     if (domain->percept_bytes < 1 || domain->percept_bytes > (UINT32_C(1) << 20))
         return WRONG_DOMAIN_PERCEPT_BYTES;
     if (domain->feature_bytes < 1 || domain->feature_bytes > (UINT32_C(1) << 16))
         return WRONG_DOMAIN_FEATURE_BYTES;
-    if (!domain->exhibits || !((unsigned)(RLVC_DOMAINS) >> (domain->kind & 7u) & 1u))
+    if (!domain->exhibits || !is_known(domain->kind))
         return WRONG_DOMAIN_EXHIBITS;
     if (!domain->candidates && !(RLVC_HAS_OWN_ORACLE && domain->oracle))
         return WRONG_DOMAIN_CANDIDATES;

@@ -211,7 +211,7 @@ rlvc_status rlvc_export_tree(const rlvc_domain *domain, const rlvc_tree *tree,
                              rlvc_write write, void *ctx, rlvc_export_info *info) {
     if (!is_identifier(name))
         return RLVC_E_RANGE;
-    if (domain->kind < RLVC_DOMAIN_BITS || domain->kind > RLVC_DOMAIN_SPATIAL)
+    if (domain->kind == RLVC_DOMAIN_OWN)
         return RLVC_E_CONFIG;
     rlvc_export_info unwanted;
     exporter e = {{{write, ctx, RLVC_OK}, tree, policy, name, actions, 0}, 0, {0}};
