@@ -34,7 +34,7 @@ class Chart:
 CHARTS = (
     Chart("The paper's maze", "interactions until the policy is optimal (medians)", r"(?:median |after )([\d,]+)", log=True),
     Chart("Known tasks, one configuration", "interactions (medians)", r"after ([\d,]+)", log=True),
-    Chart("Fleets", "seconds for 3,000,000 interactions", r"([\d.]+)", column=1, series=("", "two workers")),
+    Chart("Fleets", "seconds for 10,000,000 interactions", r"([\d.]+)", column=1, series=("", "two workers")),
     Chart("Photographs", "% of decisions that are optimal", r"([\d.]+) %", series=("poses seen", "held-out poses"), least=90),
     Chart("On microcontrollers", "bytes of memory, stack included", r"([\d,]+) bytes of memory"),
     Chart("Speed", "times as fast", r"(\d+)(?= times| to \d+ times)", series=("", "at best"), log=True),
