@@ -17,12 +17,21 @@ typedef struct player {
     uint64_t work;   /* of all calls */
 } player;
 
-/* A planner of the slider with models and searches that are soon done. */
+/* A planner of the slider with models that are soon done. */
 static inline rlvc_config slider_config(void) {
     rlvc_config config;
     config = planner_default(SLIDER_COMPONENTS, SLIDER_ACTIONS);
     config.model_leaves = 8;
     config.random = 150;
+    return config;
+}
+
+/* The same, with searches that are soon done. */
+static inline rlvc_config small_config(void) {
+    rlvc_config config = slider_config();
+    config.sample = 500;
+    config.candidates = 150;
+    config.patience = 60;
     return config;
 }
 
@@ -34,6 +43,12 @@ static inline rlvc_planner *make_in(const rlvc_config *config, void *block, size
     assert_true(bytes <= most);
     assert_int_equal(planner_init(config, block, bytes, &planner), RLVC_OK);
     return planner;
+}
+
+static inline rlvc_planner_statistics stats_of(rlvc_planner *planner) {
+    rlvc_planner_statistics statistics;
+    assert_int_equal(rlvc_planner_stats(as_agent(planner), &statistics), RLVC_OK);
+    return statistics;
 }
 
 /* One step of learning, in calls of `budget` units each. @return its units. */

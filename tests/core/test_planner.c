@@ -14,14 +14,6 @@
 
 static uint64_t memory[40000], other_memory[40000];
 
-static rlvc_config small_config(void) {
-    rlvc_config config = slider_config();
-    config.sample = 500;
-    config.candidates = 150;
-    config.patience = 60;
-    return config;
-}
-
 static rlvc_planner *make(const rlvc_config *config, uint64_t *block) {
     return make_in(config, block, sizeof memory);
 }
@@ -52,12 +44,6 @@ static float value_of(rlvc_planner *planner) {
         } while (end == RLVC_GOES_ON);
     }
     return sum;
-}
-
-static rlvc_planner_statistics stats_of(rlvc_planner *planner) {
-    rlvc_planner_statistics statistics;
-    assert_int_equal(rlvc_planner_stats(as_agent(planner), &statistics), RLVC_OK);
-    return statistics;
 }
 
 /* ------------------------------------------------------------------ learning */
@@ -604,235 +590,6 @@ static void test_bad_percepts_and_rewards(void **state) {
     assert_int_equal(planner_observe(planner, 2, 1.0f, s, 0), RLVC_E_ORDER);
 }
 
-/* ------------------------------------------------------------------ as a policy by itself */
-
-static char text[4000];
-
-static int append(void *ctx, const char *part, size_t bytes) {
-    size_t *used = ctx;
-    assert_true(*used + bytes < sizeof text);
-    memcpy(text + *used, part, bytes);
-    *used += bytes;
-    text[*used] = '\0';
-    return 0;
-}
-
-static void test_the_policy_alone(void **state) {
-    (void)state;
-    static uint64_t block[RLVC_PLANNER_POLICY_BYTES / 8u];
-    rlvc_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
-    rlvc_policy_config options;
-    rlvc_policy_info info;
-    rlvc_policy *policy;
-    player p;
-    size_t used = 0, bytes;
-    assert_int_equal(rlvc_policy_default(as_agent(planner), &options), RLVC_OK);
-    assert_int_equal(rlvc_policy_size(as_agent(planner), &options, &bytes), RLVC_OK);
-    assert_int_equal(bytes, sizeof block);
-    start(&p, planner, 2);
-    for (uint32_t round = 0; round < 3; round++) {
-        assert_int_equal(
-            rlvc_policy_make(as_agent(planner), &options, block, bytes, &policy, &info), RLVC_OK);
-        assert_int_equal(info.leaves, stats_of(planner).leaves);
-        assert_int_equal(info.as_agent, 1);
-        for (uint32_t i = 0; i < 500; i++) {
-            float s[2] = {2.0f * rlvc_rng_uniform(&p.rng) - 1.0f,
-                          2.0f * rlvc_rng_uniform(&p.rng) - 1.0f};
-            uint32_t expected, action;
-            assert_int_equal(planner_predict(planner, s, &expected), RLVC_OK);
-            assert_int_equal(rlvc_policy_act(policy, s, &action), RLVC_OK);
-            assert_int_equal(action, expected);
-        }
-        play(&p, 700);
-    }
-    assert_int_equal(rlvc_policy_print(policy, RLVC_PRINT_TEXT, append, &used), RLVC_OK);
-    assert_non_null(strstr(text, "?\n"));
-    used = 0;
-    assert_int_equal(rlvc_policy_export_c(policy, "slide", append, &used, NULL), RLVC_OK);
-    assert_non_null(strstr(text, "slide"));
-}
-
-static void test_no_policy(void **state) {
-    (void)state;
-    static uint64_t block[RLVC_PLANNER_POLICY_BYTES / 8u];
-    rlvc_config config = small_config();
-    rlvc_agent *agent = as_agent(make(&config, memory));
-    rlvc_policy_config options;
-    rlvc_policy *policy;
-    size_t bytes = sizeof block;
-    (void)rlvc_policy_default(agent, &options);
-    assert_int_equal(rlvc_policy_make(agent, &options, block, bytes, NULL, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_policy_make(NULL, &options, block, bytes, &policy, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_policy_make(agent, &options, NULL, bytes, &policy, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_policy_make(agent, &options, block, bytes - 1u, &policy, NULL),
-                     RLVC_E_MEMORY);
-    assert_int_equal(rlvc_policy_make(agent, &options, (char *)block + 4, bytes, &policy, NULL),
-                     RLVC_E_MEMORY);
-    assert_null(policy);
-    assert_int_equal(rlvc_policy_make(agent, &options, block, bytes, &policy, NULL), RLVC_OK);
-}
-
-/* ------------------------------------------------------------------ as any agent */
-
-static void test_the_tree_is_the_policy(void **state) {
-    (void)state;
-    rlvc_config config = small_config();
-    rlvc_planner *planner = make(&config, memory);
-    rlvc_agent *agent = as_agent(planner);
-    rlvc_statistics statistics;
-    rlvc_learnt learnt;
-    player p;
-    size_t used = 0;
-    start(&p, planner, 2);
-    for (uint32_t round = 0; round < 3; round++) {
-        assert_int_equal(rlvc_stats(agent, &statistics), RLVC_OK);
-        rlvc_view(agent, &learnt);
-        assert_int_equal(rlvc_tree_check(learnt.tree), 1);
-        assert_int_equal(statistics.classes, learnt.tree->classes);
-        assert_int_equal(statistics.depth, rlvc_tree_deepest(learnt.tree));
-        assert_int_equal(statistics.interactions, 700u * round);
-        for (uint32_t i = 0; i < 500; i++) {
-            float s[2] = {2.0f * rlvc_rng_uniform(&p.rng) - 1.0f,
-                          2.0f * rlvc_rng_uniform(&p.rng) - 1.0f};
-            uint32_t class_id, action, expected;
-            assert_int_equal(rlvc_predict(agent, s, &class_id, &action), RLVC_OK);
-            assert_int_equal(rlvc_tree_classify(learnt.tree, learnt.domain, s, &expected), RLVC_OK);
-            assert_int_equal(class_id, expected);
-            assert_int_equal(learnt.policy[class_id], action);
-        }
-        play(&p, 700);
-    }
-    assert_int_equal(statistics.stored, 1400);
-    assert_int_equal(rlvc_print(agent, RLVC_PRINT_TEXT, append, &used), RLVC_OK);
-    assert_non_null(strstr(text, "?\n"));
-    used = 0;
-    assert_int_equal(rlvc_export_c(agent, "slide", append, &used, NULL), RLVC_OK);
-    assert_non_null(strstr(text, "slide"));
-}
-
-/* What is of classes alone, and what is of planners alone. */
-static void test_another_method(void **state) {
-    (void)state;
-    rlvc_config config = small_config();
-    rlvc_agent *agent = as_agent(make(&config, memory));
-    rlvc_counts counts = {0};
-    rlvc_progress progress;
-    rlvc_planner_statistics statistics;
-    rlvc_planner_test node;
-    float s[2] = {0.0f, 0.0f};
-    uint32_t number;
-    size_t bytes;
-    assert_int_equal(rlvc_q(agent, 0, 0, NULL, NULL), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_value(agent, 0, NULL, NULL), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_split_at(agent, 0, NULL, NULL), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_learn_abandon(agent), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_prune(agent, 0.0f, 0.0f, &number), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_counts_size(agent, &counts, &bytes), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_learn_counts(agent, &counts, other_memory, 8, &progress),
-                     RLVC_E_MISMATCH);
-    config.method = &rlvc_method_classes;
-    assert_int_equal(planner_size(&config, &bytes), RLVC_OK);
-    assert_int_equal(rlvc_agent_init(&config, &planner_domain, other_memory, bytes, &agent),
-                     RLVC_OK);
-    assert_int_equal(rlvc_planner_act_at(agent, s, &number), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_planner_stats(agent, &statistics), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_planner_node(agent, 0, &node), RLVC_E_MISMATCH);
-    assert_int_equal(rlvc_value(agent, 0, NULL, NULL), RLVC_OK);
-    assert_int_equal(rlvc_budget_min(agent, &number), RLVC_OK);
-    assert_int_equal(number, RLVC_BUDGET_MIN);
-    assert_int_equal(rlvc_budget_min(agent, NULL), RLVC_E_NULL);
-    config.method = NULL;
-    bytes = 1;
-    assert_int_equal(planner_size(&config, &bytes), RLVC_E_CONFIG);
-    assert_int_equal(bytes, 0);
-    assert_int_equal(planner_size(&config, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_agent_init(&config, &planner_domain, memory, sizeof memory, &agent),
-                     RLVC_E_CONFIG);
-    assert_null(agent);
-    assert_int_equal(rlvc_agent_init(&config, &planner_domain, memory, sizeof memory, NULL),
-                     RLVC_E_NULL);
-}
-
-/* Where one method alone is built in its functions are the public ones: they look for null pointers
- * themselves. */
-static void test_without_a_table(void **state) {
-    (void)state;
-    const rlvc_choice choice = {0, 0};
-    rlvc_config config = small_config();
-    rlvc_store store = {0};
-    rlvc_agent *agent = as_agent(make(&config, memory));
-    rlvc_choice chosen;
-    rlvc_progress progress;
-    rlvc_statistics statistics;
-    float s[2] = {0.0f, 0.0f};
-    uint32_t number = 1;
-    size_t bytes = 1;
-    assert_int_equal(rlvc_snapshot_size(NULL, &planner_domain, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_snapshot_size(NULL, &planner_domain, &number), RLVC_E_NULL);
-    assert_int_equal(number, 0);
-    assert_int_equal(rlvc_agent_size(NULL, &planner_domain, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_agent_size(NULL, &planner_domain, &bytes), RLVC_E_NULL);
-    assert_int_equal(rlvc_agent_init(NULL, &planner_domain, memory, 8, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_load(NULL, &planner_domain, memory, 8, &store, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_agent_check(NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_save(NULL, &store), RLVC_E_NULL);
-    assert_int_equal(rlvc_stats(NULL, &statistics), RLVC_E_NULL);
-    assert_int_equal(rlvc_stats(agent, NULL), RLVC_E_NULL);
-    assert_int_equal(rlvc_classes_learn(NULL, RLVC_BUDGET_MIN, &progress), RLVC_E_NULL);
-    assert_int_equal(rlvc_classes_budget_min(NULL, &number), RLVC_E_NULL);
-    assert_int_equal(rlvc_classes_save(NULL, &store), RLVC_E_NULL);
-    assert_int_equal(rlvc_classes_load(NULL, &planner_domain, memory, 8, &store, &agent),
-                     RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_begin(NULL, s), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_act(NULL, &chosen), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_observe(NULL, choice, 0.0f, s, 0), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_learn(NULL, 1u << 20, &progress), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_budget_min(NULL, &number), RLVC_E_NULL);
-    assert_int_equal(rlvc_planner_check(NULL), RLVC_E_NULL);
-}
-
-static rlvc_agent *printed;
-
-/* While a callback runs, nothing else may. */
-static int call_back(void *ctx, const char *part, size_t bytes) {
-    rlvc_planner *planner = (rlvc_planner *)(void *)printed;
-    rlvc_statistics statistics;
-    rlvc_planner_statistics more;
-    rlvc_planner_test node;
-    rlvc_progress progress;
-    rlvc_policy_config options = {0};
-    rlvc_policy *policy;
-    float s[2] = {0.0f, 0.0f};
-    uint32_t action;
-    assert_int_equal(planner_begin(planner, s), RLVC_E_REENTERED);
-    assert_int_equal(planner_act(planner, &action), RLVC_E_REENTERED);
-    assert_int_equal(planner_observe(planner, 0, 0.0f, s, 0), RLVC_E_REENTERED);
-    assert_int_equal(planner_learn(planner, 1u << 20, &progress), RLVC_E_REENTERED);
-    assert_int_equal(planner_predict(planner, s, &action), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_planner_act_at(printed, s, &action), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_stats(printed, &statistics), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_planner_stats(printed, &more), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_planner_node(printed, 0, &node), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_agent_check(printed), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_print(printed, RLVC_PRINT_TEXT, append, ctx), RLVC_E_REENTERED);
-    assert_int_equal(rlvc_export_c(printed, "again", append, ctx, NULL), RLVC_E_REENTERED);
-    assert_int_equal(
-        rlvc_policy_make(printed, &options, other_memory, sizeof other_memory, &policy, NULL),
-        RLVC_E_REENTERED);
-    return append(ctx, part, bytes);
-}
-
-static void test_calls_from_callbacks(void **state) {
-    (void)state;
-    rlvc_config config = small_config();
-    size_t used = 0;
-    printed = as_agent(make(&config, memory));
-    assert_int_equal(rlvc_print(printed, RLVC_PRINT_TEXT, call_back, &used), RLVC_OK);
-    assert_string_equal(text, "action 0\n");
-    assert_int_equal(rlvc_agent_check(printed), RLVC_OK);
-}
-
 /* A policy that has left the archive while it acted gets no return of another's. */
 static void test_a_return_of_one_that_left(void **state) {
     (void)state;
@@ -877,12 +634,6 @@ int main(void) {
         cmocka_unit_test(test_nulls_and_order),
         cmocka_unit_test(test_bad_percepts_and_rewards),
         cmocka_unit_test(test_a_return_of_one_that_left),
-        cmocka_unit_test(test_the_policy_alone),
-        cmocka_unit_test(test_no_policy),
-        cmocka_unit_test(test_the_tree_is_the_policy),
-        cmocka_unit_test(test_another_method),
-        cmocka_unit_test(test_without_a_table),
-        cmocka_unit_test(test_calls_from_callbacks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

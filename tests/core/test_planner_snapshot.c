@@ -45,7 +45,7 @@ static int shelf_write(void *ctx, uint32_t offset, const void *buffer, uint32_t 
     return fails(of);
 }
 
-static rlvc_config small_config(void) {
+static rlvc_config short_config(void) {
     rlvc_config config = slider_config();
     config.capacity = 700;
     config.sample = 300;
@@ -98,7 +98,7 @@ static void test_it_goes_on(void **state) {
     (void)state;
     static const uint32_t at[] = {0, 37, 260, 633, 1000};
     for (uint32_t i = 0; i < sizeof at / sizeof at[0]; i++) {
-        rlvc_config config = small_config();
+        rlvc_config config = short_config();
         rlvc_store store = empty_store(&first, &config);
         player p, q;
         rlvc_planner *planner = make(&config, memory), *other;
@@ -117,7 +117,7 @@ static void test_it_goes_on(void **state) {
 
 static void test_before_the_first_percept(void **state) {
     (void)state;
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_snapshot_info found;
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *planner = make(&config, memory), *other;
@@ -142,7 +142,7 @@ static void test_before_the_first_percept(void **state) {
 /* An episode may have ended that was not learnt from yet. */
 static void test_learning_that_is_due(void **state) {
     (void)state;
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *planner = make(&config, memory), *other;
     player p;
@@ -161,7 +161,7 @@ static void test_learning_that_is_due(void **state) {
 static void test_the_size_is_enough(void **state) {
     (void)state;
     for (uint32_t leaves = 2; leaves <= 32; leaves += 15) {
-        rlvc_config config = small_config();
+        rlvc_config config = short_config();
         config.model_leaves = leaves;
         rlvc_store store = empty_store(&first, &config);
         rlvc_planner *planner = make(&config, memory);
@@ -178,7 +178,7 @@ static void test_the_size_is_enough(void **state) {
         }
         assert_true(bytes <= store.slot_bytes);
     }
-    rlvc_config large = small_config();
+    rlvc_config large = short_config();
     uint32_t bytes = 1;
     large.capacity = RLVC_PLANNER_CAPACITY_MAX;
     planner_components(64);
@@ -190,7 +190,7 @@ static void test_the_size_is_enough(void **state) {
 
 static void test_arguments(void **state) {
     (void)state;
-    rlvc_config config = small_config(), wrong = config;
+    rlvc_config config = short_config(), wrong = config;
     rlvc_snapshot_info found;
     rlvc_store store = empty_store(&first, &config), bad = store;
     rlvc_planner *planner = make(&config, memory), *other;
@@ -226,7 +226,7 @@ static void test_arguments(void **state) {
 
 static void test_not_in_the_midst_of_learning(void **state) {
     (void)state;
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *planner = make(&config, memory), *other;
     rlvc_progress progress;
@@ -259,7 +259,7 @@ static rlvc_planner *saved(const rlvc_config *config, rlvc_store *store) {
 /* Whichever call of the store fails, that is said, and a whole snapshot stays. */
 static void test_a_store_that_fails(void **state) {
     (void)state;
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_snapshot_info found;
     rlvc_store store;
     rlvc_planner *planner = saved(&config, &store), *other;
@@ -297,7 +297,7 @@ static int call_back(void *ctx, uint32_t offset, const void *buffer, uint32_t by
 
 static void test_a_store_that_calls_back(void **state) {
     (void)state;
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_store store = empty_store(&first, &config);
     rlvc_planner *other;
     store.write = call_back;
@@ -316,7 +316,7 @@ static void mend(unsigned char *snapshot) {
 static void test_forged_bytes(void **state) {
     (void)state;
     static unsigned char whole[SLOT_MOST];
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_store store;
     rlvc_planner *planner = saved(&config, &store), *other;
     uint32_t bytes = content_of(planner, whole), refused = 0, tried = 0;
@@ -375,7 +375,7 @@ static void refuse_u32(uint32_t *field, uint32_t bad) {
 static void prepare_check(void) {
     static rlvc_config config;
     rlvc_store store;
-    config = small_config();
+    config = short_config();
     checked = saved(&config, &store);
     assert_true(rlvc_planner_is_sound(checked));
 }
@@ -600,7 +600,7 @@ static void test_a_length_that_is_wrong(void **state) {
 
 static void test_other_versions(void **state) {
     (void)state;
-    rlvc_config config = small_config();
+    rlvc_config config = short_config();
     rlvc_snapshot_info found;
     rlvc_store store;
     rlvc_planner *other;
