@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Calls the agent's functions in any order, on any domain, with callbacks, writes and stores that
- * fail now and then. The first bytes choose the domain and the config; each further one a call,
- * with the arguments in the bytes after it. Whatever happens, the agent stays sound, and each call
- * returns what its header says. */
+/* Calls the agent's functions in any order, on any domain and by each method, with callbacks,
+ * writes and stores that fail now and then. The first bytes choose the domain, the method and the
+ * config; each further one a call, with the arguments in the bytes after it. Whatever happens, the
+ * agent stays sound, and each call returns what its header says. */
 #include "rlvc/export.h"
+#include "rlvc/planner.h"
 #include "rlvc/policy.h"
 #include "rlvc/snapshot.h"
 #include "world.h"
 
 #include <math.h>
 
-#define STORE_BYTES 32768u
+#define STORE_BYTES 65536u
 #define CALLS_MAX 300u
 
 /* ------------------------------------------------------------------ the input */
@@ -26,6 +27,8 @@ static uint32_t next_below(uint32_t bound) {
 }
 
 /* ------------------------------------------------------------------ what can fail */
+
+static int plans; /* the method is the planner's */
 
 static struct {
     rlvc_domain inner;
@@ -45,7 +48,7 @@ static int callback_fails(void) {
         rlvc_progress progress;
         must(rlvc_act(world.agent, &choice) == RLVC_E_REENTERED);
         must(rlvc_learn(world.agent, RLVC_BUDGET_MIN, &progress) == RLVC_E_REENTERED);
-        must(rlvc_learn_abandon(world.agent) == RLVC_E_REENTERED);
+        must(rlvc_learn_abandon(world.agent) == (plans ? RLVC_E_MISMATCH : RLVC_E_REENTERED));
     }
     return world.calls++ - world.fails_from < world.failures;
 }
@@ -106,7 +109,10 @@ static uint32_t held; /* the memory that the agent is in */
 static rlvc_agent *agent;
 
 static void choose_domain(void) {
-    world.inner = world_domain(next_below(5), next_below(2));
+    const uint32_t kind = next_below(6); /* 5: thresholds, by the planner */
+    const uint32_t variant = next_below(2);
+    plans = kind == 5u;
+    world.inner = world_domain(plans ? RLVC_DOMAIN_THRESHOLDS : kind, variant);
     domain = world.inner;
     domain.exhibits = exhibits;
     domain.candidates = candidates;
@@ -114,7 +120,20 @@ static void choose_domain(void) {
     domain.name = name;
 }
 
-static void choose_config(void) {
+static void choose_planner(void) {
+    must(rlvc_config_default(&config, &domain, 2u + next_below(3)) == RLVC_OK);
+    config.method = &rlvc_method_planner;
+    config.capacity = 64u + next_below(64);
+    config.sample = 32u + next_below(32);
+    config.model_leaves = 1u + next_below(4);
+    config.leaves = 2u + next_below(5);
+    config.horizon = 1u + next_below(12);
+    config.random = 32;
+    config.candidates = 1u + next_below(3);
+    config.patience = 1u + next_below(2);
+}
+
+static void choose_classes(void) {
     static const float discounts[] = {0.9f, 0.0f, 0.5f, 1.0f}, rates[] = {1.0f, 0.01f, 1e-6f};
     must(rlvc_config_default(&config, &domain, 1u + next_below(4)) == RLVC_OK);
     config.method = &rlvc_method_classes;
@@ -135,6 +154,15 @@ static void choose_config(void) {
     config.alpha_known = rates[next_below(3)];
 }
 
+static int is_sound(const unsigned char *percept) {
+    float number[2];
+    if (!plans)
+        return domain.check_percept == NULL || domain.check_percept(domain.ctx, percept) == 0;
+    memcpy(number, percept, sizeof number);
+    return fabsf(number[0]) <= RLVC_PLANNER_NUMBER_MAX &&
+           fabsf(number[1]) <= RLVC_PLANNER_NUMBER_MAX;
+}
+
 /* A percept of any bytes, or one of the world's; in it, now and then, numbers that are none. */
 static int choose_percept(unsigned char percept[PERCEPT_MAX]) {
     static const float odd[] = {NAN, INFINITY, -1e16f, 1e15f, -0.0f};
@@ -145,45 +173,84 @@ static int choose_percept(unsigned char percept[PERCEPT_MAX]) {
             percept[i] = (unsigned char)next_below(256);
     if (kind == 1 && domain.percept_bytes >= 8u)
         memcpy(percept + 4u * next_below(domain.percept_bytes / 4u), &odd[next_below(5)], 4);
-    return domain.check_percept == NULL || domain.check_percept(domain.ctx, percept) == 0;
+    return is_sound(percept);
 }
 
 /* ------------------------------------------------------------------ the calls */
 
-static void call_observe(const unsigned char *percept, int sound) {
-    const float rewards[] = {0.0f, 1.0f, -1e12f, 1e12f, NAN};
+/* Is this what rlvc_observe says of a reward that is a number, and an end that there is? */
+static int is_answer(rlvc_status status, int sound, int looked_at) {
+    if (status == RLVC_E_PERCEPT)
+        return !sound && looked_at;
+    return status == RLVC_E_ORDER || status == RLVC_E_BUSY || status == RLVC_E_CALLBACK ||
+           (status == RLVC_OK && (sound || !looked_at));
+}
+
+static void observe(float reward, const unsigned char *percept, int sound, uint32_t end) {
     rlvc_choice choice = {0, 0};
     rlvc_status status = rlvc_act(agent, &choice);
     must(status == RLVC_OK || status == RLVC_E_ORDER || status == RLVC_E_CALLBACK);
     must(choice.action < config.actions && choice.exploited <= 1u);
-    const uint32_t reward = next_below(5), end = next_below(4) ? 0 : next_below(4);
-    status = rlvc_observe(agent, choice, rewards[reward], percept, (uint8_t)end);
-    if (end > RLVC_TRUNCATED)
+    status = rlvc_observe(agent, choice, reward, percept, (uint8_t)end);
+    if (plans && !sound) /* the planner learns what an end looks like, too */
+        must(status == RLVC_E_PERCEPT);
+    else if (plans && status == RLVC_E_ORDER)
+        return;
+    else if (end > RLVC_TRUNCATED)
         must(status == RLVC_E_RANGE);
-    else if (reward == 4u)
+    else if (!(reward <= RLVC_REWARD_MAX))
         must(status == RLVC_E_REWARD);
-    else if (status == RLVC_E_PERCEPT)
-        must(!sound && end != RLVC_TERMINATED);
     else
-        must(status == RLVC_E_ORDER || status == RLVC_E_BUSY || status == RLVC_E_CALLBACK ||
-             (status == RLVC_OK && (sound || end == RLVC_TERMINATED)));
+        must(is_answer(status, sound, plans || end != RLVC_TERMINATED));
+}
+
+static void call_observe(const unsigned char *percept, int sound) {
+    const float rewards[] = {0.0f, 1.0f, -1e12f, 1e12f, NAN};
+    const float reward = rewards[next_below(5)];
+    observe(reward, percept, sound, next_below(4) ? 0 : next_below(4));
+}
+
+/* Walks about, so that there is something to learn from: the last cell pays and ends an episode. */
+static void call_play(void) {
+    unsigned char percept[PERCEPT_MAX];
+    uint32_t cell = next_below(CELLS), left = 1u + next_below(50);
+    const uint32_t stride = 1u + next_below(CELLS);
+    for (; left > 0; left--) {
+        cell = (cell + stride) % CELLS;
+        const uint32_t end = cell == CELLS - 1u ? RLVC_TERMINATED : RLVC_GOES_ON;
+        world_percept(&world.inner, cell, percept);
+        observe((float)end, percept, 1, end);
+        if (end == RLVC_GOES_ON)
+            continue;
+        const rlvc_status status = rlvc_begin(agent, percept);
+        must(status == RLVC_OK || status == RLVC_E_BUSY);
+    }
 }
 
 static void call_learn(void) {
     rlvc_progress progress;
-    uint32_t budget = next_below(4) ? 64u + 3u * next_below(256) : RLVC_BUDGET_UNBOUNDED;
+    uint32_t least, budget = RLVC_BUDGET_UNBOUNDED;
+    must(rlvc_budget_min(agent, &least) == RLVC_OK);
+    must(rlvc_learn(agent, least - 1u, &progress) == RLVC_E_RANGE);
+    if (next_below(4))
+        budget = least + (plans ? 64u : 3u) * next_below(256);
     rlvc_status status = rlvc_learn(agent, budget, &progress);
-    must(status == RLVC_OK || status == RLVC_E_CALLBACK);
+    must(status == RLVC_OK || (!plans && status == RLVC_E_CALLBACK));
     must(progress.work <= budget && progress.done <= 1u);
 }
 
-static void call_predict(const unsigned char *percept) {
+static void call_predict(const unsigned char *percept, int sound) {
     uint32_t class_id = 99, action = 99;
     rlvc_status status = rlvc_predict(agent, percept, &class_id, &action);
     if (status == RLVC_OK)
-        must(class_id < config.classes && action < config.actions);
+        must(class_id < (plans ? config.leaves : config.classes) && action < config.actions);
     else
-        must(status == RLVC_E_CALLBACK && class_id == 99u && action == 99u);
+        must(status == (plans ? RLVC_E_PERCEPT : RLVC_E_CALLBACK) && class_id == 99u &&
+             action == 99u);
+    must(!plans || sound == (status == RLVC_OK));
+    float numbers[PERCEPT_MAX / 4u];
+    memcpy(numbers, percept, sizeof numbers);
+    must(rlvc_planner_act_at(agent, numbers, &action) == (plans ? status : RLVC_E_MISMATCH));
 }
 
 static void call_policy(const unsigned char *percept) {
@@ -215,7 +282,7 @@ static void call_save_and_load(void) {
     world.store_calls = 0;
     world.store_fails = next_below(4) ? 0 : 1u + next_below(100);
     rlvc_status status = rlvc_save(agent, &store);
-    must(status == RLVC_OK || status == RLVC_E_STORE);
+    must(status == RLVC_OK || status == RLVC_E_STORE || (plans && status == RLVC_E_BUSY));
     world.saved |= status == RLVC_OK;
     world.store_calls = 0;
     world.store_fails = next_below(4) ? 0 : 1u + next_below(100);
@@ -239,13 +306,8 @@ static void call_show(void) {
     must(status == RLVC_OK || status == RLVC_E_CALLBACK || status == RLVC_E_CONFIG);
 }
 
-/* What can be asked of a sound agent has finite answers. */
-static void call_check(void) {
-    rlvc_statistics statistics;
-    must(rlvc_agent_check(agent) == RLVC_OK);
-    must(rlvc_stats(agent, &statistics) == RLVC_OK);
-    must(statistics.classes >= 1u && statistics.classes <= config.classes);
-    for (uint32_t c = 0; c < statistics.classes; c++) {
+static void check_classes(uint32_t classes) {
+    for (uint32_t c = 0; c < classes; c++) {
         float value, q;
         uint32_t action, samples;
         must(rlvc_value(agent, c, &value, &action) == RLVC_OK);
@@ -255,6 +317,33 @@ static void call_check(void) {
         if (c > 0)
             must(rlvc_split_at(agent, c - 1u, NULL, NULL) == RLVC_OK);
     }
+}
+
+static void check_planner(uint32_t leaves) {
+    rlvc_planner_statistics statistics;
+    rlvc_planner_test node;
+    must(rlvc_planner_stats(agent, &statistics) == RLVC_OK);
+    must(statistics.leaves == leaves && statistics.acting <= RLVC_PLANNER_AGAIN);
+    must(statistics.score - statistics.score == 0.0f && statistics.beta <= 1.0f);
+    for (uint32_t k = 0; k + 1u < 2u * leaves; k++)
+        must(rlvc_planner_node(agent, k, &node) == RLVC_OK);
+    must(rlvc_planner_node(agent, 2u * leaves - 1u, &node) == RLVC_E_RANGE);
+    must(rlvc_value(agent, 0, NULL, NULL) == RLVC_E_MISMATCH);
+    must(rlvc_q(agent, 0, 0, NULL, NULL) == RLVC_E_MISMATCH);
+    must(rlvc_split_at(agent, 0, NULL, NULL) == RLVC_E_MISMATCH);
+}
+
+/* What can be asked of a sound agent has finite answers. */
+static void call_check(void) {
+    rlvc_statistics statistics;
+    const rlvc_status status = rlvc_agent_check(agent);
+    must(status == RLVC_OK || (plans && status == RLVC_E_BUSY));
+    must(rlvc_stats(agent, &statistics) == RLVC_OK && statistics.classes >= 1u);
+    must(statistics.classes <= (plans ? config.leaves : config.classes));
+    if (plans)
+        check_planner(statistics.classes);
+    else
+        check_classes(statistics.classes);
 }
 
 static void call(void) {
@@ -269,7 +358,7 @@ static void call(void) {
         must(sound ? status == RLVC_OK || status == RLVC_E_BUSY : status == RLVC_E_PERCEPT);
         break;
     case 1:
-        call_predict(percept);
+        call_predict(percept, sound);
         break;
     case 2:
         call_policy(percept);
@@ -285,10 +374,10 @@ static void call(void) {
         break;
     case 6:
         status = rlvc_prune(agent, (float)next_below(3), (float)next_below(3), &undone);
-        must(status == RLVC_OK || status == RLVC_E_BUSY);
+        must(plans ? status == RLVC_E_MISMATCH : status == RLVC_OK || status == RLVC_E_BUSY);
         break;
     case 7:
-        must(rlvc_learn_abandon(agent) == RLVC_OK);
+        must(rlvc_learn_abandon(agent) == (plans ? RLVC_E_MISMATCH : RLVC_OK));
         break;
     case 8:
         world.fails_from = world.calls + next_below(64);
@@ -297,6 +386,9 @@ static void call(void) {
     case 9:
     case 10:
         call_learn();
+        break;
+    case 11:
+        call_play();
         break;
     default:
         call_observe(percept, sound);
@@ -310,7 +402,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     input_left = size;
     memset(&world, 0, sizeof world);
     choose_domain();
-    choose_config();
+    if (plans)
+        choose_planner();
+    else
+        choose_classes();
     rlvc_status status = rlvc_agent_size(&config, &domain, &bytes);
     if (status != RLVC_OK) {
         must(status == RLVC_E_CONFIG && bytes == 0);

@@ -10,7 +10,7 @@
 
 #define CONFIGS 4u
 #define LIVES 12u
-#define EXTENT 60u /* interactions that tell one life from the next */
+#define EXTENT 30u /* interactions that tell one life from the next */
 
 static uint64_t memory[16384], policy_memory[RLVC_PLANNER_POLICY_BYTES / 8];
 
@@ -22,14 +22,14 @@ static rlvc_config config_of(uint32_t choice) {
     must(rlvc_thresholds_default(&thresholds, SLIDER_COMPONENTS) == RLVC_OK);
     must(rlvc_thresholds_domain(&thresholds, &domain) == RLVC_OK);
     must(rlvc_config_default(&config, &domain, SLIDER_ACTIONS) == RLVC_OK);
-    config.capacity = choice & 1u ? 64u : 300u;
-    config.sample = choice & 1u ? 32u : 100u;
+    config.capacity = choice & 1u ? 64u : 150u;
+    config.sample = choice & 1u ? 32u : 64u;
     config.model_leaves = choice & 2u ? 1u : 4u;
     config.leaves = choice & 2u ? 2u : 6u;
-    config.horizon = choice & 1u ? 7u : 30u;
+    config.horizon = choice & 1u ? 5u : 12u;
     config.random = 32;
-    config.candidates = 4;
-    config.patience = 2;
+    config.candidates = 2;
+    config.patience = 1;
     return config;
 }
 
