@@ -186,6 +186,15 @@ RLVC_API rlvc_status rlvc_shim_python_raise(rlvc_shim_python *methods);
 /* Drops the exception that was kept, if there is one: to be called with the interpreter's lock. */
 RLVC_API void rlvc_shim_python_forget(rlvc_shim_python *methods);
 
+/* Gives a file that has no name (O_TMPFILE) the name of another file, which it replaces in one
+ * step. It is linked under a temporary name first, and renamed; a process of its own does both, so
+ * that nothing is left under that name when the caller, or its process group, is killed in between.
+ * That process keeps the file's lock until it is done. O(1) system calls.
+ * @param file, folder descriptors
+ * @param temporary, name in that folder
+ * @return 0; an errno: the folder is as it was; -1: not on Linux */
+RLVC_API int rlvc_shim_give_name(int file, int folder, const char *temporary, const char *name);
+
 /* Do nothing, with the arguments of rlvc_act and rlvc_observe: the minimum cost of a call from
  * Python. */
 RLVC_API rlvc_status rlvc_shim_empty_act(rlvc_agent *agent, rlvc_choice *choice);

@@ -11,8 +11,8 @@ reinforcement learning".
 #
 #     errors     one exception for each cause
 #     checks     numbers that a caller gives
-#     files      reading files, and replacing them as a whole
 #     _native    the C library: loaded, checked, declared
+#     files      reading files, and replacing them as a whole
 #     domains    percepts and features (section 5)
 #     agent      the agent and the planner, their configurations, snapshots, policies
 #     vision     pictures to percepts (sections 3 and 6.2)

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Reads regular files only, and writes files atomically.
 
-A new file is written without a name if the system supports that, else under a random name. When all
-of it is on the disk, it is renamed to its final name, which replaces the old file in one step. The
-writer holds a lock on the new file. If the writer is killed, the lock is released: the next process
-that saves or loads an agent removes what it left, if anything. It can only leave something between
-two system calls, and only where a file is replaced.
+A new file is written without a name if the system supports that, and gets its name when all of it is
+on the disk. An old file of that name is replaced in one step, by a process of its own: so a writer
+that is killed, at whatever moment, leaves the old file or the new one, and nothing else.
+
+Elsewhere (macOS; a file system without ``O_TMPFILE``, as NFS) the new file has a random name until it
+is renamed. The writer holds a lock on it. If the writer is killed, the lock is released: the next
+process that saves or loads an agent removes what it left. So it does what a power failure left, or a
+kill of all processes of a machine, in the moment between naming a new file and replacing the old.
 
 Where a system has no locks on files and no names relative to a folder (Windows), the new file has a
 random name from the start, and a killed writer leaves it behind.
@@ -23,6 +26,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from . import _native as native
 from .errors import StoreError
 
 try:
@@ -152,7 +156,11 @@ def _give_name(file: BinaryIO, folder: int, temporary: str, name: str, new: bool
             with contextlib.suppress(FileExistsError):  # another process was first
                 os.link(here, name, dst_dir_fd=folder, follow_symlinks=True)
                 return
-        os.link(here, temporary, dst_dir_fd=folder, follow_symlinks=True)
+        names = os.fsencode(temporary), os.fsencode(name)
+        failed = native.long_call.rlvc_shim_give_name(file.fileno(), folder, *names)
+        if failed:
+            raise OSError(failed, os.strerror(failed))
+        return
     os.rename(temporary, name, src_dir_fd=folder, dst_dir_fd=folder)
 
 

@@ -782,6 +782,7 @@ CORE: Functions = {
     "rlvc_shim_python_domain": (None, [c.c_void_p, c.c_void_p]),
     "rlvc_shim_python_raise": (c.c_int, [c.c_void_p]),
     "rlvc_shim_python_forget": (None, [c.c_void_p]),
+    "rlvc_shim_give_name": (c.c_int, [c.c_int, c.c_int, c.c_void_p, c.c_void_p]),
     "rlvc_shim_empty_act": (c.c_int, [c.c_void_p, c.c_void_p]),
     "rlvc_shim_empty_observe": (c.c_int, [c.c_void_p, Choice, c.c_float, c.c_void_p, c.c_uint8]),
     "rlvc_shim_sutton": (c.POINTER(GridworldMaze), []),
