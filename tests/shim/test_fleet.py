@@ -334,14 +334,14 @@ def _killed(folder, file, after):
 def deadly(marker):
     """The task of an engine, whose first worker is killed at work."""
 
-    def count(counting, piece):
+    def count(counting, pieces):
         import os
         import signal
 
         try:
             os.close(os.open(marker, os.O_CREAT | os.O_EXCL))
         except FileExistsError:
-            return counting.piece(piece)
+            return counting.pieces(pieces)
         os.kill(os.getpid(), signal.SIGKILL)
         return None
 
@@ -354,10 +354,21 @@ def test_engines_and_a_worker_that_is_killed(tmp_path, folder, expected, monkeyp
     monkeypatch.setenv("HOME", str(tmp_path))
     marker = tmp_path / "killed"
     monkeypatch.setattr(engines, "count", deadly(str(marker)))
+    monkeypatch.setattr(engines, "_FAN_IN", 2)  # parts of 7 files are added up by workers, twice
     run = rlvc.fleet.learn_from(folder, cluster=cluster, workers=2, sample=0)
     assert marker.exists()
     expect_same(run, expected)
     assert run.report == rlvc.fleet.learn_from(folder, sample=0).report
+
+
+@pytest.mark.parametrize(("workers", "rows"), [(1, [5]), (0, [0, 0]), (2, [1] * 100), (3, [9, 1, 0, 4, 100, 7])])
+def test_tasks_hold_each_piece_once(workers, rows):
+    pieces = [sources.Piece(str(i), rows=count) for i, count in enumerate(rows)]
+    tasks = engines.tasks_of(pieces, workers)
+    assert [piece for task in tasks for piece in task] == pieces
+    assert 1 <= len(tasks) <= 4 * max(1, workers)
+    largest = max(sum(piece.rows for piece in task) for task in tasks)
+    assert largest <= sum(rows) / (4 * max(1, workers)) + max(rows)
 
 
 def test_importing_imports_no_engine():
@@ -434,13 +445,13 @@ def test_a_node_that_is_lost(tmp_path, folder, expected, monkeypatch):
     begun.mkdir()
     folder_of_marks = str(begun)
 
-    def slow(counting, piece):
+    def slow(counting, pieces):
         import time
         import uuid
 
         with open(f"{folder_of_marks}/{uuid.uuid4()}", "w"):
             time.sleep(0.5)
-        return counting.piece(piece)
+        return counting.pieces(pieces)
 
     def lose():
         while len(list(begun.iterdir())) < 3:

@@ -221,22 +221,3 @@ class Table:
                 arrays["reward"][: native.pairs] if self.question.sums else None,
             )
         )
-
-
-def added(question: Question, parts: list[Part], memory: int = MEMORY) -> Part:
-    """Return the sum of parts: the same in whatever order.
-
-    Parameters
-    ----------
-    question : Question
-        What they count.
-    parts : list of Part
-    memory : int
-        Bytes that it may grow to.
-    """
-    if len(parts) == 1:
-        return parts[0]
-    table = Table(question, memory)
-    for part in parts:
-        table.add(part)
-    return table.part()

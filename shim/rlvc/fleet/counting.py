@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -105,21 +106,22 @@ class Counting:
     skip: bool = False
     keep: int = 0
 
-    def into(self, table: Table, piece: Piece) -> Seen:
+    def into(self, table: Table, piece: Piece, seen: Seen) -> None:
         """Count a piece into a table.
 
         Parameters
         ----------
         table : Table
         piece : Piece
+        seen : Seen
+            Is added to.
 
         Raises
         ------
         LogError
             The piece is broken; the message names the file, the row group and the fault.
         """
-        sample = empty(-(-self.question.features // 8), self.keep)
-        seen = Seen(bytes=piece.bytes)
+        seen.bytes += piece.bytes
         for where, block in blocks(piece, self.question.features):
             try:
                 if isinstance(block, LogError):
@@ -130,13 +132,12 @@ class Counting:
                     block = dataclasses.replace(block, keys=self.rounding.keys(block.rewards))
                 table.count(block, where)
                 seen.rows += len(block)
-                sample = sample.with_more(block.percepts)
+                if seen.sample is not None:
+                    seen.sample = seen.sample.with_more(block.percepts)
             except LogError as error:
                 if not self.skip:
                     raise
                 seen.skipped.append(str(error))
-        seen.sample = sample if self.keep else None
-        return seen
 
     def _check(self, block: Columns, where: str) -> None:
         """Find faults before anything is counted."""
@@ -148,13 +149,22 @@ class Counting:
                 f"{where}: interaction {int(np.argmax(wrong))}: action, end or reward is out of range"
             )
 
-    def piece(self, piece: Piece) -> tuple[Part, Seen]:
-        """Count a piece by itself.
+    def pieces(
+        self, pieces: Sequence[Piece], note: Callable[[int], None] | None = None
+    ) -> tuple[Part, Seen]:
+        """Count pieces into a table of their own.
 
         Parameters
         ----------
-        piece : Piece
+        pieces : sequence of Piece
+        note : callable or None
+            Hears of the interactions of each piece that is done.
         """
-        table = Table(self.question, self.memory)
-        seen = self.into(table, piece)
+        sample = empty(-(-self.question.features // 8), self.keep) if self.keep else None
+        table, seen = Table(self.question, self.memory), Seen(sample=sample)
+        for piece in pieces:
+            before = seen.rows
+            self.into(table, piece, seen)
+            if note:
+                note(seen.rows - before)
         return table.part(), seen

@@ -14,22 +14,24 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from ..counts.part import Part
-from ..counts.table import Table, added
+from ..counts.table import Table
 from ..errors import ConfigError
 from .counting import Counting, Seen
 from .sources import Piece
 
-_FAN_IN = 8  # parts that a task adds up
+_TASKS = 4  # for each worker: enough for the slow and the fast to end together
+_FAN_IN = 16  # parts that are added up at once
 _RETRIES = 4  # of a task whose worker was lost
 
-Note = Callable[[Seen], None]
+Note = Callable[[int], None]
+Counted = tuple[Part, Seen]
 
 
 class Engine(Protocol):
     """What all engines do."""
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Part:
-        """Return the counts of all pieces; `note` hears of each piece that is done."""
+    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
+        """Return the counts of all pieces; `note` hears how many more interactions are counted."""
         ...
 
     def close(self) -> None:
@@ -40,37 +42,78 @@ class Engine(Protocol):
 class InProcess:
     """Counts here, a piece after another, into one table."""
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Part:
+    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces."""
-        table = Table(counting.question, counting.memory)
-        for piece in pieces:
-            note(counting.into(table, piece))
-        return table.part()
+        return counting.pieces(pieces, note)
 
     def close(self) -> None:
         """Nothing to let go of."""
 
 
-def count(counting: Counting, piece: Piece) -> tuple[Part, Seen]:
-    """Count a piece: the task of an engine.
+def count(counting: Counting, pieces: Sequence[Piece]) -> Counted:
+    """Count some pieces: the task of an engine.
 
     Parameters
     ----------
     counting : Counting
-    piece : Piece
+    pieces : sequence of Piece
     """
-    return counting.piece(piece)
+    return counting.pieces(pieces)
 
 
-def add(counting: Counting, *parts: Part) -> Part:
+def add(counting: Counting, *parts: Counted) -> Counted:
     """Add up parts: the other task.
 
     Parameters
     ----------
     counting : Counting
-    *parts : Part
+    *parts : tuple of Part and Seen
     """
-    return added(counting.question, list(parts), counting.memory)
+    total = _Sum(counting)
+    for part in parts:
+        total.add(part)
+    return total.made()
+
+
+class _Sum:
+    """Adds up parts as they come: the same in whatever order."""
+
+    def __init__(self, counting: Counting) -> None:
+        self._table = Table(counting.question, counting.memory)
+        self._seen = Seen()
+
+    def add(self, part: Counted) -> None:
+        self._table.add(part[0])
+        self._seen += part[1]
+
+    def made(self) -> Counted:
+        return self._table.part(), self._seen
+
+
+def tasks_of(pieces: Sequence[Piece], workers: int) -> list[tuple[Piece, ...]]:
+    """Cut the pieces into tasks of about equal numbers of interactions.
+
+    A task's counts hardly grow with its interactions, so that few large tasks are less to add up.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+    workers : int
+        There are about four tasks for each.
+    """
+    most = _TASKS * max(1, workers)
+    total = sum(piece.rows for piece in pieces)
+    tasks: list[list[Piece]] = [[] for _ in range(most)]
+    before = 0
+    for piece in pieces:
+        middle = before + piece.rows / 2
+        tasks[min(int(most * middle / max(1, total)), most - 1)].append(piece)
+        before += piece.rows
+    return [tuple(task) for task in tasks if task]
+
+
+def _rows(task: Sequence[Piece]) -> int:
+    return sum(piece.rows for piece in task)
 
 
 def _in_groups(items: list[Any]) -> list[list[Any]]:
@@ -108,28 +151,31 @@ class Ray:
         elif self._started:
             ray.init(address, **quiet)
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Part:
+    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces."""
         ray = self._ray
-        counter = ray.remote(num_returns=2, max_retries=_RETRIES)(count)
-        adder = ray.remote(max_retries=_RETRIES)(add)
+        counter, adder = (ray.remote(max_retries=_RETRIES)(task) for task in (count, add))
         asked = ray.put(counting)
-        pairs = [counter.remote(asked, piece) for piece in pieces]
-        waiting = [seen for _, seen in pairs]
+        tasks = tasks_of(pieces, int(ray.cluster_resources().get("CPU", 1)))
+        parts = [counter.remote(asked, task) for task in tasks]
+        rows = {part: _rows(task) for part, task in zip(parts, tasks, strict=True)}
+        waiting = list(parts)
+        while len(parts) > _FAN_IN:
+            parts = [adder.remote(asked, *some) for some in _in_groups(parts)]
+            waiting += parts
+        last, total = set(parts), _Sum(counting)
         try:
             while waiting:
-                ready, waiting = ray.wait(waiting)
-                for seen in ray.get(ready):
-                    note(seen)
-            parts = [part for part, _ in pairs]
-            while len(parts) > 1:
-                parts = [adder.remote(asked, *some) for some in _in_groups(parts)]
-            total: Part = ray.get(parts[0])
+                ready, waiting = ray.wait(waiting, fetch_local=False)
+                for part in ready:
+                    if part in last:
+                        total.add(ray.get(part))
+                    note(rows.get(part, 0))
         except ray.exceptions.RayTaskError as error:
             for task in waiting:
                 ray.cancel(task)
             raise error.cause from None
-        return total
+        return total.made()
 
     def close(self) -> None:
         """Disconnect; a cluster that was started here ends."""
@@ -167,36 +213,31 @@ class Dask:
             )
         self._client: Any = library.Client(self._cluster or address)
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Part:
+    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces."""
-        submit = self._client.submit
-        pairs = [submit(count, counting, piece, pure=False, retries=_RETRIES) for piece in pieces]
-        seen = [submit(_second, pair, pure=False, retries=_RETRIES) for pair in pairs]
-        parts = [submit(_first, pair, pure=False, retries=_RETRIES) for pair in pairs]
-        del pairs
-        for future in self._as_completed(seen):
-            note(future.result())
-        while len(parts) > 1:
-            parts = [
-                submit(add, counting, *some, pure=False, retries=_RETRIES)
-                for some in _in_groups(parts)
-            ]
-        total: Part = parts[0].result()
-        return total
+        tasks = tasks_of(pieces, sum(self._client.nthreads().values()))
+        parts = [self._submit(count, counting, task) for task in tasks]
+        rows = {part.key: _rows(task) for part, task in zip(parts, tasks, strict=True)}
+        done = self._as_completed(parts)
+        while len(parts) > _FAN_IN:
+            parts = [self._submit(add, counting, *some) for some in _in_groups(parts)]
+            done.update(parts)
+        last, total = {part.key for part in parts}, _Sum(counting)
+        del parts  # workers keep those that are needed
+        for part in done:
+            if part.key in last or part.status == "error":
+                total.add(part.result())
+            note(rows.get(part.key, 0))
+        return total.made()
+
+    def _submit(self, function: Callable[..., Counted], *arguments: Any) -> Any:
+        return self._client.submit(function, *arguments, pure=False, retries=_RETRIES)
 
     def close(self) -> None:
         """Disconnect; a cluster that was started here ends."""
         self._client.close()
         if self._cluster is not None:
             self._cluster.close()
-
-
-def _first(pair: tuple[Part, Seen]) -> Part:
-    return pair[0]
-
-
-def _second(pair: tuple[Part, Seen]) -> Seen:
-    return pair[1]
 
 
 def engine_of(cluster: str | None, workers: int | None = None) -> Engine:

@@ -140,9 +140,9 @@ class _Bar:
                 rounds=progress.rounds, classes=driver.agent.classes, rows=driver.rows
             )
 
-    def note(self, seen: Seen) -> None:
+    def note(self, rows: int) -> None:
         if self._bar is not None:
-            self._bar.update(seen.rows)
+            self._bar.update(rows)
 
     def close(self) -> None:
         if self._bar is not None:
@@ -181,17 +181,12 @@ class _Driver:
         if saved and cell == saved.cell:
             self.progress.passes -= 1  # counted when it was made
             return saved.part
-        kept, self.seen = self.seen.sample, Seen()
+        kept = self.seen.sample
         self._bar.begin(self)
-
-        def note(seen: Seen) -> None:
-            self.seen += seen
-            self._bar.note(seen)
-
         question = self._question(cell)
         keep = 0 if kept is not None else self._counting.keep  # the first pass has seen all
         counting = dataclasses.replace(self._counting, question=question, keep=keep)
-        part = self._engine.total(counting, self._source.pieces, note)
+        part, self.seen = self._engine.total(counting, self._source.pieces, self._bar.note)
         self.seen.sample = kept or self.seen.sample
         if part.interactions == 0:
             raise LogError("the source holds no interaction")

@@ -24,9 +24,11 @@ def hashes(percepts: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint64]:
     padded[:, : percepts.shape[1]] = percepts
     made = np.zeros(len(percepts), np.uint64)
     for word in padded.view("<u8").T:
-        made = (made ^ word.astype(np.uint64)) * _ODD
+        made ^= word
+        made *= _ODD
         made ^= made >> _SHIFT
-    return made * _ODD
+    made *= _ODD
+    return made
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,10 +56,16 @@ class Sample:
         ----------
         percepts : ndarray of uint8, [n, bytes]
         """
-        if self.room == 0 or len(percepts) == 0:
-            return self
-        found = hashes(percepts)
-        if len(self.percepts) == self.room:  # most are above the highest so far
+        found, sample = hashes(percepts), self
+        start, size = 0, 2 * self.room
+        while start < len(found):  # the more are seen, the fewer of the rest are low enough
+            some = slice(start, start + size)
+            sample = sample._with(percepts[some], found[some])
+            start, size = start + size, 2 * size
+        return sample
+
+    def _with(self, percepts: npt.NDArray[np.uint8], found: npt.NDArray[np.uint64]) -> Sample:
+        if len(self.percepts) == self.room:
             low = found <= hashes(self.percepts[-1:])[0]
             percepts, found = percepts[low], found[low]
         if len(self.percepts):
