@@ -354,7 +354,8 @@ def test_engines_and_a_worker_that_is_killed(tmp_path, folder, expected, monkeyp
     monkeypatch.setenv("HOME", str(tmp_path))
     marker = tmp_path / "killed"
     monkeypatch.setattr(engines, "count", deadly(str(marker)))
-    monkeypatch.setattr(engines, "_FAN_IN", 2)  # parts of 7 files are added up by workers, twice
+    monkeypatch.setattr(engines, "_TASK_ROWS", 1)  # as many tasks as may be, whose parts
+    monkeypatch.setattr(engines, "_FAN_IN", 2)  # workers add up by twos
     run = rlvc.fleet.learn_from(folder, cluster=cluster, workers=2, sample=0)
     assert marker.exists()
     expect_same(run, expected)
@@ -362,13 +363,15 @@ def test_engines_and_a_worker_that_is_killed(tmp_path, folder, expected, monkeyp
 
 
 @pytest.mark.parametrize(("workers", "rows"), [(1, [5]), (0, [0, 0]), (2, [1] * 100), (3, [9, 1, 0, 4, 100, 7])])
-def test_tasks_hold_each_piece_once(workers, rows):
+def test_tasks_hold_each_piece_once(monkeypatch, workers, rows):
     pieces = [sources.Piece(str(i), rows=count) for i, count in enumerate(rows)]
-    tasks = engines.tasks_of(pieces, workers)
-    assert [piece for task in tasks for piece in task] == pieces
-    assert 1 <= len(tasks) <= 4 * max(1, workers)
-    largest = max(sum(piece.rows for piece in task) for task in tasks)
-    assert largest <= sum(rows) / (4 * max(1, workers)) + max(rows)
+    for least, each in ((1, 4), (1000, 1), (10, sum(rows) // (10 * max(1, workers)))):
+        monkeypatch.setattr(engines, "_TASK_ROWS", least)
+        tasks = engines.tasks_of(pieces, workers)
+        assert [piece for task in tasks for piece in task] == pieces
+        most = max(1, workers) * min(max(each, 1), 4)
+        assert 1 <= len(tasks) <= most
+        assert max(sum(piece.rows for piece in task) for task in tasks) <= sum(rows) / most + max(rows)
 
 
 def test_importing_imports_no_engine():
@@ -459,6 +462,7 @@ def test_a_node_that_is_lost(tmp_path, folder, expected, monkeypatch):
         cluster.remove_node(nodes[0], allow_graceful=False)
 
     monkeypatch.setattr(engines, "count", slow)
+    monkeypatch.setattr(engines, "_TASK_ROWS", 1)
     killer = threading.Thread(target=lose)
     killer.start()
     try:

@@ -19,7 +19,8 @@ from ..errors import ConfigError
 from .counting import Counting, Seen
 from .sources import Piece
 
-_TASKS = 4  # for each worker: enough for the slow and the fast to end together
+_TASKS = 4  # for each worker, at most: enough for the slow and the fast to end together
+_TASK_ROWS = 1 << 21  # interactions of a task, at least, if each worker has one: some 0.1 s
 _FAN_IN = 16  # parts that are added up at once
 _RETRIES = 4  # of a task whose worker was lost
 
@@ -99,10 +100,10 @@ def tasks_of(pieces: Sequence[Piece], workers: int) -> list[tuple[Piece, ...]]:
     ----------
     pieces : sequence of Piece
     workers : int
-        There are about four tasks for each.
+        There are one to four tasks for each.
     """
-    most = _TASKS * max(1, workers)
-    total = sum(piece.rows for piece in pieces)
+    workers, total = max(1, workers), _rows(pieces)
+    most = workers * min(max(1, total // (workers * _TASK_ROWS)), _TASKS)
     tasks: list[list[Piece]] = [[] for _ in range(most)]
     before = 0
     for piece in pieces:
