@@ -10,8 +10,15 @@ import worlds
 import rlvc
 from rlvc.counts import rounds
 from rlvc.counts.part import PAIR, ROW, Part, Question
-from rlvc.counts.table import Columns, Table, added
+from rlvc.counts.table import Columns, Table
 from rlvc.errors import ConfigError, CountError, LogError, LogWarning, RangeError
+
+
+def added(question, parts):
+    table = Table(question)
+    for part in parts:
+        table.add(part)
+    return table.part()
 
 
 def random_columns(rng, bits, count, actions=3):

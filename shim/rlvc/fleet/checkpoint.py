@@ -25,7 +25,7 @@ from ..files import read, replace
 from .counting import Seen
 from .sample import Sample
 
-_VERSION = 1
+_VERSION = 2
 _WHOLE = (0, 2**63 - 1)  # the range of counts
 
 
@@ -78,7 +78,7 @@ def save(file: str | Path, made_from: str, state: State) -> None:
         "made_from": made_from,
         "cell": state.cell,
         "progress": dataclasses.asdict(state.progress),
-        "seen": [state.seen.rows, state.seen.bytes, state.seen.skipped],
+        "seen": [state.seen.rows, state.seen.bytes, state.seen.lost, state.seen.skipped],
     }
     sample = state.seen.sample
     arrays = {
@@ -122,10 +122,11 @@ def _state(
 ) -> State:
     """Make the state of a file's members, each of which is checked."""
     snapshot, sample = arrays.pop("snapshot").tobytes(), arrays.pop("sample")
-    rows, size, skipped = head["seen"]
+    rows, size, lost, skipped = head["seen"]
     seen = Seen(
         whole("seen", rows, *_WHOLE),
         whole("seen", size, *_WHOLE),
+        whole("seen", lost, *_WHOLE),
         [str(why) for why in skipped],
         Sample(sample, max(1, len(sample))),
     )

@@ -15,26 +15,9 @@ import numpy.typing as npt
 
 from ..counts.table import Columns
 from ..errors import LogError
-from ..logs.log import Log
 from . import layout
 
 _NAMES = ("obs", "actions", "rewards", "new_obs", "terminateds", "truncateds")
-
-
-def bits_of_log(log: Log) -> int:
-    """Return the bits of a log's observations, or raise LogError if they are not bits.
-
-    Parameters
-    ----------
-    log : Log
-    """
-    values = np.asarray(log.before)
-    if values.dtype != np.bool_ or values.ndim != 2:
-        raise LogError(
-            f"{log.where}: observations: {values.dtype}{list(values.shape)}, not bits: convert the log "
-            "with rlvc.fleet.convert and an encoder to bits"
-        )
-    return int(values.shape[1])
 
 
 def bits_of(kind: Any, where: str) -> int:

@@ -45,7 +45,7 @@ def add(commands: Any) -> None:
 def _add_learn(verbs: Any) -> None:
     learn = verbs.add_parser("learn", help="learn, and print the tree")
     option = learn.add_argument
-    option("source", metavar="SOURCE", nargs="+", help="files, folders or addresses")
+    option("source", metavar="SOURCE", nargs="+", help="files, folders, addresses or data sets")
     option("--cluster", metavar="ADDRESS", help="ray, ray://..., dask, tcp://... (default: none)")
     option("--workers", type=int, metavar="N", help="tasks at a time of a cluster on this machine")
     option("--checkpoint", metavar="FILE", help="save to after each pass, and go on from")

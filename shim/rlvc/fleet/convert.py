@@ -13,14 +13,14 @@ import numpy.typing as npt
 
 from ..checks import whole
 from ..counts.table import Columns
-from ..domains.bits import Bits
 from ..errors import ConfigError, LogError
 from ..files import replace
 from ..learning.encode import Encoder
 from ..logs import read
-from ..logs.learn_from import encoded
 from . import layout
-from .sources import blocks, columns_of_log, filesystem_of, opened
+from .logs import columns_of_log
+from .places import filesystem_of
+from .sources import blocks, opened
 
 FILE_ROWS = 1 << 22  # interactions in a file, and what is left of the last one's episode
 
@@ -70,25 +70,11 @@ def convert(
     Raises
     ------
     LogError
-        The log is damaged.
-    ConfigError
-        The percepts are not bits.
+        The log is damaged, or its percepts are not bits.
     """
     file_rows = whole("file_rows", file_rows, 1, 2**31)
     source = read(log, columns)
-    if source.record_bytes:
-        bits = 8 * source.record_bytes
-        all_of_it = columns_of_log(source, bits)
-    else:
-        domain, _, before, after = encoded(source, encoder, space, 0)
-        if not isinstance(domain, Bits):
-            raise ConfigError(
-                f"{source.where}: percepts of {type(domain).__name__}; a fleet learns from bits: "
-                "pass an encoder to bits"
-            )
-        bits = domain.bits
-        source.before, source.after, source.record_bytes = before, after, domain.percept_bytes
-        all_of_it = columns_of_log(source, bits)
+    all_of_it, bits, _ = columns_of_log(source, encoder, space)
     count = whole("actions", actions or source.known.count, 1, 255)
     filesystem, within = filesystem_of(str(folder))
     filesystem.create_dir(within, recursive=True)

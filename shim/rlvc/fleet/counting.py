@@ -62,6 +62,9 @@ class Seen:
     Attributes
     ----------
     rows, bytes : int
+    lost : int
+        Interactions of LeRobot data sets of which nobody knows what came next: the last of episodes
+        that are cut short.
     skipped : list of str
         What was left out, and why.
     sample : Sample or None
@@ -70,6 +73,7 @@ class Seen:
 
     rows: int = 0
     bytes: int = 0
+    lost: int = 0
     skipped: list[str] = dataclasses.field(default_factory=list)
     sample: Sample | None = None
 
@@ -79,6 +83,7 @@ class Seen:
         return Seen(
             self.rows + other.rows,
             self.bytes + other.bytes,
+            self.lost + other.lost,
             self.skipped + other.skipped,
             samples[0] + samples[1] if len(samples) == 2 else next(iter(samples), None),
         )
@@ -132,6 +137,7 @@ class Counting:
                     block = dataclasses.replace(block, keys=self.rounding.keys(block.rewards))
                 table.count(block, where)
                 seen.rows += len(block)
+                seen.lost += piece.rows - len(block) if piece.kind == "lerobot" else 0
                 if seen.sample is not None:
                     seen.sample = seen.sample.with_more(block.percepts)
             except LogError as error:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +47,9 @@ class Report:
         Of a pass.
     rows : int
         Of the last table of counts.
+    lost : int
+        Interactions of a pass that were left out, as what came next is not in a LeRobot data set: the
+        last of episodes that are cut short.
     skipped : list of str
         Row groups that were left out, and why; empty unless that was asked for.
     """
@@ -57,6 +59,7 @@ class Report:
     interactions: int
     bytes: int
     rows: int
+    lost: int
     skipped: list[str]
 
 
@@ -211,13 +214,17 @@ class _Driver:
         rounds.learn(self.agent, self.count, self.progress, tested | self.saved_cell(), self.passed)
 
 
+def _single(piece: Piece) -> list[Piece]:
+    """Return the row groups of a piece, each by itself; or the piece, if it has none."""
+    if piece.kind != "groups":
+        return [piece]
+    rows = piece.rows // max(1, len(piece.groups))
+    return [dataclasses.replace(piece, groups=(group,), rows=rows) for group in piece.groups]
+
+
 def _some(source: Source, sample: int) -> Source:
     """Return some row groups of a source, evenly apart, that hold about so many interactions."""
-    single = [
-        Piece(piece.path, (group,), piece.rows // len(piece.groups), piece.bytes)
-        for piece in source.pieces
-        for group in piece.groups
-    ]
+    single = [some for piece in source.pieces for some in _single(piece)]
     wanted = max(1, round(len(single) * sample / source.rows)) if single else 0
     step = max(1, len(single) // max(1, wanted))
     return dataclasses.replace(source, pieces=tuple(single[::step][:wanted]))
@@ -266,7 +273,7 @@ def _rounding(bits: int | None, grid: float | None) -> Rounding:
 
 
 def learn_from(
-    source: str | Path | Sequence[str | Path],
+    source: Any,
     *,
     cluster: str | None = None,
     workers: int | None = None,
@@ -288,9 +295,10 @@ def learn_from(
 
     Parameters
     ----------
-    source : str, Path or sequence of these
+    source : str, Path, minari.MinariDataset or sequence of these
         Files, folders, or addresses such as ``s3://bucket/folder``: Parquet files
-        (:mod:`rlvc.fleet.layout`, or RLlib's columns), NPZ, CSV, or the logs of controllers.
+        (:mod:`rlvc.fleet.layout`, or RLlib's columns), NPZ, CSV, or the logs of controllers; the folder
+        or address of a LeRobot data set; a Minari data set, its name or its folder.
     cluster : str or None
         None: this process. ``"ray"`` or ``"dask"``: a cluster on this machine. ``"ray://..."`` or
         Dask's ``"tcp://..."``: one that runs.
@@ -363,20 +371,27 @@ def learn_from(
     finally:
         bar.close()
         engine.close()
-    return _run_of(driver, seed)
+    return _run_of(driver, found, seed)
 
 
 def _nothing(agent: Agent) -> npt.NDArray[np.uint8]:
     return np.zeros((0, *agent.domain.percept_shape), np.uint8)
 
 
-def _run_of(driver: _Driver, seed: int) -> FleetRun:
+def _run_of(driver: _Driver, source: Source, seed: int) -> FleetRun:
     """Make the run of a driver that has come to the end."""
-    run = FleetRun(driver.agent, None, seed, Actions(driver.agent.config.actions))
+    known = source.known or Actions(driver.agent.config.actions)
+    run = FleetRun(driver.agent, source.encoder, seed, known)
     progress, seen = driver.progress, driver.seen
     run.sample = driver.seen.sample.percepts if driver.seen.sample else _nothing(driver.agent)
     run.report = Report(
-        progress.passes, progress.rounds, seen.rows, seen.bytes, driver.rows, seen.skipped
+        progress.passes,
+        progress.rounds,
+        seen.rows,
+        seen.bytes,
+        driver.rows,
+        seen.lost,
+        seen.skipped,
     )
     classes = driver.agent.classes
     run.history.append(Record(1, seen.rows, classes, progress.splits, 0, float("nan")))

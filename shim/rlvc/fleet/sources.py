@@ -4,19 +4,20 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..counts.table import Columns
 from ..errors import LogError
+from ..learning.actions import Actions
 from ..logs import read
 from ..logs.controller_log import is_records
 from ..logs.log import Log
 from . import columns as foreign
-from . import layout
+from . import datasets, layout
+from .logs import columns_of_log, numbered
+from .places import files_below, parquet
 
 _GROUPS = 4  # row groups in a piece, about a million interactions
 _WHOLE = (".npz", ".csv")  # read at once, with the readers of rlvc.logs
@@ -29,17 +30,20 @@ class Piece:
     Attributes
     ----------
     path : str
-        A path, or an address such as ``s3://bucket/file``.
+        A path, an address such as ``s3://bucket/file``, or the name of a Minari data set.
     groups : tuple of int
-        Row groups of a Parquet file; () : a file that is read at once.
+        Row groups of a Parquet file, or episodes of a Minari data set; () : a file that is read at once.
     rows, bytes : int
         Interactions and bytes on disk; 0: unknown.
+    kind : str
+        ``"groups"``, ``"log"``, ``"lerobot"`` or ``"minari"``: how it is read.
     """
 
     path: str
     groups: tuple[int, ...] = ()
     rows: int = 0
     bytes: int = 0
+    kind: str = "groups"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,11 +57,17 @@ class Source:
         Bits of a percept.
     actions : int
         Number of actions; 0: unknown.
+    encoder : Encoder or None
+        Of the observations; None: they are percepts.
+    known : Actions or None
+        What the numbers of the actions mean; None: themselves.
     """
 
     pieces: tuple[Piece, ...]
     bits: int
     actions: int
+    encoder: Any = None
+    known: Actions | None = None
 
     @property
     def rows(self) -> int:
@@ -65,64 +75,8 @@ class Source:
         return sum(piece.rows for piece in self.pieces)
 
 
-def filesystem_of(path: str) -> tuple[Any, str]:
-    """Return Arrow's file system for a path or address, and the path within it.
-
-    Parameters
-    ----------
-    path : str
-    """
-    pa = layout.arrow()
-    if "://" not in path:
-        return pa.fs.LocalFileSystem(), path
-    try:
-        filesystem, within = pa.fs.FileSystem.from_uri(path)
-        return filesystem, within
-    except pa.ArrowInvalid:
-        pass
-    try:
-        import fsspec
-    except ImportError:
-        raise ImportError(
-            f"{path}: this kind of address needs fsspec: pip install fsspec"
-        ) from None
-    found, within = fsspec.core.url_to_fs(path)
-    return pa.fs.PyFileSystem(pa.fs.FSSpecHandler(found)), within
-
-
-def _files(path: str) -> list[str]:
-    """Return a file, or the files below a folder, in order of their names."""
-    pa = layout.arrow()
-    filesystem, within = filesystem_of(path)
-    try:
-        info = filesystem.get_file_info(within)
-        if info.type == pa.fs.FileType.File:
-            return [path]
-        if info.type != pa.fs.FileType.Directory:
-            raise LogError(f"{path}: no such file or folder")
-        below = filesystem.get_file_info(pa.fs.FileSelector(within, recursive=True))
-    except OSError as error:
-        raise LogError(f"{path}: cannot be listed: {error}") from error
-    names = [entry.path for entry in below if entry.type == pa.fs.FileType.File]
-    scheme = path.partition("://")[0] + "://" if "://" in path else ""
-    kept = [name for name in sorted(names) if Path(name).suffix == ".parquet"]
-    kept = kept or [name for name in sorted(names) if Path(name).suffix in _WHOLE]
-    if not kept:
-        raise LogError(f"{path}: holds no file that ends in .parquet, .npz or .csv")
-    return [scheme + name for name in kept]
-
-
 def _is_whole(path: str) -> bool:
     return Path(path).suffix.lower() in _WHOLE or ("://" not in path and is_records(path))
-
-
-def _parquet(path: str) -> Any:
-    pa = layout.arrow()
-    filesystem, within = filesystem_of(path)
-    try:
-        return pa.parquet.ParquetFile(within, filesystem=filesystem, memory_map=False)
-    except (OSError, pa.ArrowException) as error:
-        raise LogError(f"{path}: cannot be read as Parquet: {error}") from error
 
 
 def _facts(kind: Any, path: str) -> tuple[int, int]:
@@ -132,14 +86,18 @@ def _facts(kind: Any, path: str) -> tuple[int, int]:
     return foreign.bits_of(kind, path), 0
 
 
-def _pieces_of(path: str) -> tuple[list[Piece], int, int]:
-    """Return the pieces of a file, and its bits and actions."""
+def _whole_log(path: str) -> Source:
+    log = numbered(read(path))
+    _, bits, encoder = columns_of_log(log)
+    piece = Piece(path, rows=len(log), bytes=Path(path).stat().st_size, kind="log")
+    return Source((piece,), bits, log.known.start + log.known.count, encoder)
+
+
+def _of_file(path: str) -> Source:
+    """Return what a file holds."""
     if _is_whole(path):
-        log = read(path)
-        bits = 8 * log.record_bytes or foreign.bits_of_log(log)
-        actions = log.known.count
-        return [Piece(path, rows=len(log), bytes=Path(path).stat().st_size)], bits, actions
-    with _parquet(path) as file:
+        return _whole_log(path)
+    with parquet(path) as file:
         bits, actions = _facts(file.schema_arrow, path)
         meta = file.metadata
         pieces = []
@@ -150,38 +108,78 @@ def _pieces_of(path: str) -> tuple[list[Piece], int, int]:
                 g.column(i).total_compressed_size for g in about for i in range(g.num_columns)
             )
             pieces.append(Piece(path, groups, sum(g.num_rows for g in about), size))
-    return pieces, bits, actions
+    return Source(tuple(pieces), bits, actions)
 
 
-def opened(source: str | Path | Sequence[str | Path]) -> Source:
+def _of_lerobot(path: str) -> Source:
+    """Return what a LeRobot data set holds; its actions are known if it is of one file."""
+    files, pieces = datasets.files_of_lerobot(path), []
+    for name in files:
+        with parquet(name) as file:
+            meta = file.metadata
+            size = sum(meta.row_group(i).total_byte_size for i in range(meta.num_row_groups))
+            pieces.append(Piece(name, (), meta.num_rows, size, "lerobot"))
+    log = numbered(datasets.from_lerobot(files[0]))
+    _, bits, encoder = columns_of_log(log)
+    actions = log.known.start + log.known.count if len(files) == 1 else 0
+    return Source(tuple(pieces), bits, actions, encoder)
+
+
+def _of_minari(path: str, dataset: Any) -> Source:
+    """Return what a Minari data set holds."""
+    cuts = datasets.episodes_of(dataset)
+    pieces = tuple(Piece(path, groups, rows, 0, "minari") for groups, rows in cuts)
+    if not pieces:
+        raise LogError(f"{path}: there is no interaction")
+    log = datasets.read_episodes(path, pieces[0].groups)
+    _, bits, encoder = columns_of_log(log)
+    return Source(pieces, bits, log.known.count, encoder, log.known)
+
+
+def _all_of(given: Any) -> Iterator[tuple[str, Source]]:
+    """Yield names, and what each holds."""
+    path = str(given)
+    if hasattr(given, "iterate_episodes"):
+        path = str(given.storage.data_path)
+    dataset = given if hasattr(given, "iterate_episodes") else datasets.minari_of(path)
+    if dataset is not None:
+        yield path, _of_minari(path, dataset)
+    elif datasets.is_lerobot(path):
+        yield path, _of_lerobot(path)
+    else:
+        yield from ((file, _of_file(file)) for file in files_below(path, (".parquet",), _WHOLE))
+
+
+def opened(source: Any) -> Source:
     """Find the pieces of a log, and check that their files fit together.
 
     Parameters
     ----------
-    source : str, Path or sequence of these
-        Files, folders or addresses.
+    source : str, Path, minari.MinariDataset or sequence of these
+        Files, folders, addresses or data sets.
 
     Raises
     ------
     LogError
         A file cannot be read, or has other percepts or actions than the first.
     """
-    given = [source] if isinstance(source, str | Path) else list(source)
-    files = [file for path in given for file in _files(str(path))]
+    given = list(source) if isinstance(source, list | tuple) else [source]
     pieces: list[Piece] = []
-    first: tuple[int, int] | None = None
-    for file in files:
-        some, bits, actions = _pieces_of(file)
-        first = first or (bits, actions)
-        if bits != first[0]:
-            raise LogError(f"{file}: {bits} bits, but {files[0]} has {first[0]}")
-        if actions and first[1] and not _is_whole(file) and actions != first[1]:
-            raise LogError(f"{file}: {actions} actions, but {files[0]} has {first[1]}")
-        first = (bits, max(actions, first[1]))
-        pieces += some
+    first: Source | None = None
+    named = ""
+    for each in given:
+        for name, some in _all_of(each):
+            first, named = first or some, named or name
+            if some.bits != first.bits:
+                raise LogError(f"{name}: {some.bits} bits, but {named} has {first.bits}")
+            fixed = some.pieces and some.pieces[0].kind in ("groups", "minari")
+            if some.actions and first.actions and fixed and some.actions != first.actions:
+                raise LogError(f"{name}: {some.actions} actions, but {named} has {first.actions}")
+            first = dataclasses.replace(first, actions=max(some.actions, first.actions))
+            pieces += some.pieces
     if first is None or not pieces:
         raise LogError("the source holds no interaction")
-    return Source(tuple(pieces), *first)
+    return dataclasses.replace(first, pieces=tuple(pieces))
 
 
 # ------------------------------------------------------------------ reading a piece
@@ -214,14 +212,14 @@ def blocks(piece: Piece, bits: int) -> Iterator[tuple[str, Columns | LogError]]:
     tuple
         Where it is, and the interactions; or what is wrong with them.
     """
-    if not piece.groups:
+    if piece.kind != "groups":
         try:
-            yield piece.path, columns_of_log(read(piece.path), bits)
+            yield piece.path, _fitting(_read(piece), bits)
         except LogError as error:
             yield piece.path, error
         return
     try:
-        file = _parquet(piece.path)
+        file = parquet(piece.path)
     except LogError as error:
         yield piece.path, error
         return
@@ -237,31 +235,16 @@ def blocks(piece: Piece, bits: int) -> Iterator[tuple[str, Columns | LogError]]:
                 yield where, error
 
 
-def columns_of_log(log: Log, bits: int) -> Columns:
-    """Return a log that the readers of ``rlvc.logs`` have read as columns.
-
-    Parameters
-    ----------
-    log : Log
-        Of percepts, or of bool observations.
-    bits : int
-    """
-    if log.record_bytes:
-        before, after = np.asarray(log.before), np.asarray(log.after)
-    else:
-        foreign.bits_of_log(log)
-        before, after = (
-            np.packbits(np.asarray(side, np.bool_), axis=1, bitorder="little")
-            for side in (log.before, log.after)
-        )
-    if before.shape[1] != -(-bits // 8):
-        raise LogError(f"{log.where}: percepts of {before.shape[1]} bytes, not of {bits} bits")
-    rewards = np.ascontiguousarray(log.rewards, np.float32)
-    return Columns(
-        np.ascontiguousarray(before),
-        np.ascontiguousarray(after),
-        log.actions.astype(np.uint8),
-        rewards,
-        np.ascontiguousarray(log.ends),
-        rewards,
+def _read(piece: Piece) -> Log:
+    if piece.kind == "minari":
+        return datasets.read_episodes(piece.path, piece.groups)
+    return numbered(
+        datasets.from_lerobot(piece.path) if piece.kind == "lerobot" else read(piece.path)
     )
+
+
+def _fitting(log: Log, bits: int) -> Columns:
+    columns, found, _ = columns_of_log(log)
+    if -(-found // 8) != -(-bits // 8):
+        raise LogError(f"{log.where}: percepts of {found} bits, not of {bits}")
+    return columns

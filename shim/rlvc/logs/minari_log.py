@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,9 @@ from ..learning.interact import ends_of
 from .log import Log, checked
 
 
-def from_minari(dataset: Any, bins: int | None = None) -> Log:
+def from_minari(
+    dataset: Any, bins: int | None = None, episodes: Sequence[int] | None = None
+) -> Log:
     """Read a log from a Minari data set, with its spaces.
 
     Parameters
@@ -22,12 +25,14 @@ def from_minari(dataset: Any, bins: int | None = None) -> Log:
         A str is the name of a local data set. ``exploited`` is read from the infos, if it is there.
     bins : int or None
         If actions are a Box: into how many numbers each element is divided; the nearest is taken.
+    episodes : sequence of int or None
+        Which are read. None: all.
     """
     if isinstance(dataset, str):
         dataset = _loaded(dataset)
     name = str(dataset.spec.dataset_id)
     parts: dict[str, list[Any]] = {key: [] for key in ("before", "after", "a", "r", "e", "x")}
-    for episode in dataset.iterate_episodes():
+    for episode in dataset.iterate_episodes(episodes):
         where = f"{name}: episode {episode.id}"
         count = len(episode.actions)
         seen = _observations(episode.observations)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+"""Files of a fleet: paths on this machine, or addresses that Arrow or fsspec know."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..errors import LogError
+from . import layout
+
+
+def filesystem_of(path: str) -> tuple[Any, str]:
+    """Return Arrow's file system for a path or address, and the path within it.
+
+    Parameters
+    ----------
+    path : str
+    """
+    pa = layout.arrow()
+    if "://" not in path:
+        return pa.fs.LocalFileSystem(), path
+    try:
+        filesystem, within = pa.fs.FileSystem.from_uri(path)
+        return filesystem, within
+    except pa.ArrowInvalid:
+        pass
+    try:
+        import fsspec
+    except ImportError:
+        raise ImportError(
+            f"{path}: this kind of address needs fsspec: pip install fsspec"
+        ) from None
+    found, within = fsspec.core.url_to_fs(path)
+    return pa.fs.PyFileSystem(pa.fs.FSSpecHandler(found)), within
+
+
+def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
+    """Return a file, or those below a folder, in order of their names.
+
+    Parameters
+    ----------
+    path : str
+    *endings : tuple of str
+        Of a folder's files. The first of these that some file has is taken.
+
+    Raises
+    ------
+    LogError
+        There is none.
+    """
+    pa = layout.arrow()
+    filesystem, within = filesystem_of(path)
+    try:
+        info = filesystem.get_file_info(within)
+        if info.type == pa.fs.FileType.File:
+            return [path]
+        if info.type != pa.fs.FileType.Directory:
+            raise LogError(f"{path}: no such file or folder")
+        below = filesystem.get_file_info(pa.fs.FileSelector(within, recursive=True))
+    except OSError as error:
+        raise LogError(f"{path}: cannot be listed: {error}") from error
+    names = [entry.path for entry in below if entry.type == pa.fs.FileType.File]
+    scheme = path.partition("://")[0] + "://" if "://" in path else ""
+    kept: list[str] = []
+    for some in endings:
+        kept = kept or [name for name in sorted(names) if Path(name).suffix in some]
+    if not kept:
+        *most, last = (ending for some in endings for ending in some)
+        either = f"{', '.join(most)} or {last}" if most else last
+        raise LogError(f"{path}: holds no file that ends in {either}")
+    return [scheme + name for name in kept]
+
+
+def parquet(path: str) -> Any:
+    """Open a Parquet file.
+
+    Parameters
+    ----------
+    path : str
+    """
+    pa = layout.arrow()
+    filesystem, within = filesystem_of(path)
+    try:
+        return pa.parquet.ParquetFile(within, filesystem=filesystem, memory_map=False)
+    except (OSError, pa.ArrowException) as error:
+        raise LogError(f"{path}: cannot be read as Parquet: {error}") from error
