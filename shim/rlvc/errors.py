@@ -101,6 +101,10 @@ class LogWarning(UserWarning):
     """Something of a log is left out or lost. The text says what, and how to keep it."""
 
 
+class MaskWarning(UserWarning):
+    """A run that learnt with action masks acts without one: it may choose a forbidden action."""
+
+
 class MazeError(Error, ValueError):
     """The text of a maze is invalid. The message names the line, the column and the fault."""
 

@@ -239,9 +239,19 @@ def test_what_is_lost_is_said():
     ("text", "said"),
     [
         ("1,0,0.5,1\n2,1,0.5,1\n", "header=[...], the 4 names"),
-        ("x,action,reward,terminated\n0x1F,0,0,1\n1,1,0,1\n", "line 2: x: '0x1F'"),
+        ("x,action,reward,terminated\n0x1G,0,0,1\n1,1,0,1\n", "line 2: x: '0x1G'"),
         ("x,action,reward,terminated\n1e17,0,0,1\n", "line 2: x: 1e+17 is beyond 1e15"),
-        ("x,action,reward,terminated\n1,0,\0,1\n", "line 2: a control character"),
+        ("x,action,reward,terminated\n1e400,0,0,1\n", "line 2: x: 1e400 is beyond 1e15"),
+        ("x,action,reward,terminated\n1,0,\1,1\n", "line 2: a control character"),
+        ("x,action,reward,terminated\n1,0,inf,1\n", "line 2: reward: inf is not a finite"),
+        ("x,action,reward,terminated\n1,0,,1\n", "no interaction with a reward: none in line 2"),
+        ("x,action,reward,terminated\n1,0,good,1\n", "line 2: reward: 'good' is not a number"),
+        ("x,action,reward,terminated\n", "names of columns, and no row"),
+        ("\n\n", "is empty"),
+        ("x,action,reward,reward,done\n1,0,0,1,1\n", "line 1: columns 3 and 4 have the same name reward"),
+        ("s2,s2,s,action,reward,done\n1,0,0,1,1,1\n", "columns 1 and 2 have the same name s2"),
+        ('x,action,reward,done\n1,0,"0,1\n1,0,0,1\n', "line 2: cannot be read as CSV"),
+        ("x,action,reward,done\n1,0,0,1\n1,0\n", "line 3: 2 fields, not 4"),
         ("x,reward,r,action,done\n1,0,0,1,1\n", "reward and r are both"),
         (
             "state,action,reward,done\n[1 2],0,0,1\n[1],0,0,1\n",
@@ -256,6 +266,116 @@ def test_one_sentence_says_what_to_do(text, said, tmp_path):
         logs.read(file)
     assert said in str(caught.value)
     assert "log.csv" in str(caught.value)
+
+
+HEAD = "x,action,reward,terminated\n"
+
+
+@pytest.mark.parametrize(
+    ("cells", "values", "said"),
+    [
+        ("\u0661\u0662 1", [12, 1], "beyond ASCII"),  # Arabic
+        ("\u06f1 \u06f2", [1, 2], "beyond ASCII"),  # Persian
+        ("\uff11\uff10 7", [10, 7], "beyond ASCII"),  # of full width
+        ("\u22121 2", [-1, 2], "beyond ASCII"),  # minus
+        ("1\u200b 2", [1, 2], "beyond ASCII"),  # a blank of no width
+        ("0x1F 1", [31, 1], "base 16"),
+        ("-0b11 0o17", [-3, 15], "base 16"),
+        ("1_0 1", [10, 1], "in groups"),
+        ("1_000 2_500", [1000, 2500], "in groups"),
+        ("1'000.5 7", [1000.5, 7], "in groups"),
+        ("1.5D+03 -2d0", [1500, -2], "exponent D"),
+        ("1.#INF -1.#INF", [np.inf, -np.inf], "2 infinite numbers"),
+        ("-inf 3", [-np.inf, 3], "1 infinite number"),
+    ],
+)
+def test_spellings_of_numbers(cells, values, said, tmp_path):
+    """Each has one obvious meaning, and what was read is said."""
+    file = tmp_path / "log.csv"
+    rows = [f"{cell},{i},0,1" for i, cell in enumerate(cells.split(" "))]
+    file.write_text(HEAD + "\n".join(rows) + "\n", encoding="utf-8")
+    log = logs.read(file)
+    assert log.before["x"].tolist() == values
+    assert said in log.describe()
+
+
+def test_places_are_words(tmp_path):
+    """Where no text is a plain number, 1_0 is a row and a column."""
+    file = tmp_path / "log.csv"
+    file.write_text(HEAD + "1_0,0,0,1\n0_1,1,1,1\n", encoding="utf-8")
+    assert logs.read(file).before["x"].tolist() == ["1_0", "0_1"]
+
+
+def test_infinite_numbers_act_as_large_ones(tmp_path):
+    file = tmp_path / "log.csv"
+    rows = [f"{x},{a},{float((x == 'inf') == a)},1" for x in ("1", "inf") for a in (0, 1)]
+    file.write_text(HEAD + "\n".join(50 * rows) + "\n", encoding="utf-8")
+    run = rlvc.learn_from(file)
+    assert run.predict({"x": 1.0}) == 0
+    assert run.predict({"x": np.inf}) == run.predict({"x": 1e15}) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "count", "said"),
+    [
+        ("1,0,0,1\n2,1,,1\n3,1,1,1\n", 2, "1 row is left out, for want of a reward, first line 3"),
+        ("1,\0001,0,1\n3,1,1,1\n", 2, "1 byte is 0"),
+        ("1,1,0,1\n3,1,1,1\n" + 600 * "\0", 2, "600 bytes are 0"),
+        ("1,1,0,1\n3,1,1,1\n3,1", 2, "line 4 is cut off"),
+        ("1,1,0,True\n3,1,1,False\n3,1,1,True\n3,1,0,Fal", 3, "line 5 is cut off"),
+        ('"[1, 2]",1,0,1\n"[3, 2]",1,1,1\n"[3,', 2, "line 4 is cut off"),
+    ],
+)
+def test_what_is_damaged_is_left_out_and_said(text, count, said, tmp_path):
+    file = tmp_path / "log.csv"
+    file.write_bytes((HEAD + text).encode())
+    with pytest.warns(errors.LogWarning) as caught:
+        log = logs.read(file)
+    assert len(log) == count
+    assert any(said in str(warning.message) for warning in caught)
+    assert said in log.describe()
+
+
+def test_a_line_of_json_that_is_cut_off(tmp_path):
+    file = tmp_path / "log.jsonl"
+    whole = [json.dumps({"x": i, "action": i, "reward": 0, "terminated": True}) for i in (0, 1)]
+    file.write_text("\n".join([*whole, whole[0][:-3]]), encoding="utf-8")
+    with pytest.warns(errors.LogWarning, match="line 3 is cut off"):
+        assert len(logs.read(file)) == 2
+    file.write_text("\n".join([whole[0][:-3], *whole]), encoding="utf-8")
+    with pytest.raises(errors.LogError, match="line 1: is not JSON"):
+        logs.read(file)
+
+
+@pytest.mark.parametrize("end", ["\x1a", "\r\n\x1a\r\n"])
+def test_an_old_end_of_file(end, tmp_path):
+    file = tmp_path / "log.csv"
+    file.write_bytes((HEAD + "1,1,0,1").encode() + end.encode())
+    assert len(logs.read(file)) == 1
+
+
+def test_columns_of_one_name(tmp_path):
+    """They are numbered, and what comes next stays next to what it is the next of."""
+    file = tmp_path / "log.csv"
+    file.write_text(
+        table("s,s,action,reward,s_next,s_next,terminated,truncated",
+              lambda e, t, s, a, r, n, d, u: (0, s, a, r, 0, n, int(d), int(u))), encoding="utf-8",
+    )  # fmt: skip
+    log = logs.read(file)
+    assert list(log.before) == ["s_0", "s_1"]
+    assert log.after["s_1"].tolist() == BASE["next"].tolist()
+    assert "2 columns are named s: taken as s_0, s_1" in log.describe()
+
+
+def test_a_grid_of_real_actions(tmp_path):
+    """Few real numbers that occur often are the actions; of others it is asked what to do."""
+    file = tmp_path / "log.csv"
+    rows = [f"0,{(-0.5, 0.5)[i % 2]},{i % 2},1" for i in range(16)]
+    file.write_text(HEAD + "\n".join(rows) + "\n", encoding="utf-8")
+    assert rlvc.learn_from(file, discount=0.0).predict({"x": 0.0}) == 0.5
+    file.write_text(HEAD + "\n".join(rows[:15]) + "\n", encoding="utf-8")
+    with pytest.raises(errors.LogError, match="pass bins="):
+        logs.read(file)
 
 
 def test_a_header_that_is_missing(tmp_path):

@@ -140,9 +140,10 @@ def test_a_log_that_stops_midway():
         ({"observations": np.zeros(7)}, r"observations: \[7\]"),
         ({"terminated": np.full(len(arrays()["actions"]), "no")}, "terminated: <U2: no flags"),
         (
-            {"rewards": np.where(np.arange(len(arrays()["actions"])) == 9, np.nan, 0)},
-            "index 9: rewards: nan",
+            {"rewards": np.where(np.arange(len(arrays()["actions"])) == 9, np.inf, 0)},
+            "index 9: rewards: inf",
         ),
+        ({"rewards": np.full(len(arrays()["actions"]), np.nan)}, "a reward: none in index 0"),
         ({"observations": np.full(len(arrays()["observations"]), np.nan)}, "none in index 0"),
         ({"next_observations": np.zeros(3)}, "observations: "),
     ],
@@ -243,16 +244,17 @@ def test_damaged_npz(tmp_path, content):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "line 1: no column action"),
+        ("", "is empty"),
+        ("cell,reward,terminated\n", "line 1: no column action"),
         ("cell,action,reward\n1,0,0\n", "line 1: no column terminated"),
         ("action,reward,terminated\n0,0,1\n", "line 1: no column for the observation"),
-        ("c,c,action,reward,terminated\n", "line 1: two columns have the same name"),
+        ("c,action,action,reward,terminated\n", "line 1: columns 2 and 3 have the same name"),
         (csv([]), "no interaction"),
         (csv(["1,0,0,0", "2,0,0"]), "line 3: 3 fields, not 4"),
         (csv(["1,0,0,0", "\n\n2,zero,0,1"]), "line 5: action: 'zero' is not a number"),
         (csv(["1,0,0,0", "2,0.5,0,1"]), "line 3: action: 0.5 is not a whole number"),
         (csv(["1,0,inf,1"]), "line 2: reward: inf"),
-        (csv(["1,0,,1"]), "line 2: reward: nan"),
+        (csv(["1,0,,1"]), "a reward: none in line 2"),
         (csv([",0,0,1"]), "none in line 2"),
         (csv(["1,0,0,2"]), "line 2: terminated: 2.0"),
         (csv(["1,,0,1"]), "line 2: terminated without an action"),
@@ -270,7 +272,7 @@ def test_damaged_csv(tmp_path, text, said):
 def test_other_files(tmp_path):
     file = tmp_path / "log.txt"
     file.write_text("", encoding="utf-8")
-    with pytest.raises(errors.LogError, match="no column action"):
+    with pytest.raises(errors.LogError, match="is empty"):
         rlvc.learn_from(file)
     other = tmp_path / "log.xyz"
     other.write_bytes(b"\x01\x00\x02\x00" * 9)

@@ -3,6 +3,7 @@
 
 import csv
 import io
+import pickle
 
 import gymnasium
 import numpy as np
@@ -212,6 +213,35 @@ def test_combinations(space):
     assert [int(run.predict(np.array([bit, 0], np.int8))[0]) for bit in (0, 1)] == [0, 1]
 
 
+def acts_by_masks(run, env):
+    """With a mask only what it allows; without one with a warning, and a comment in C."""
+    seen = env.reset()[0]
+    for mask in ([1, 0], [0, 1]):
+        assert run.predict(seen, action_masks=mask) == int(np.argmax(mask))
+    if isinstance(seen, dict):
+        assert run.predict(seen | {"action_mask": np.array([1, 0], np.int8)}) == 0
+        batch = {"cell": np.stack([seen["cell"]] * 2), "action_mask": np.eye(2, dtype=np.int8)}
+        assert run.predict(batch).tolist() == [0, 1]
+    else:
+        batch = np.stack([seen] * 2)
+    assert run.predict(batch, action_masks=[[0, 1], [1, 0]]).tolist() == [1, 0]
+    with pytest.raises(errors.ConfigError, match=r"action_masks: .*expected 2 truth values"):
+        run.predict(seen, action_masks=[1, 0, 1])
+    copy = pickle.loads(pickle.dumps(run))
+    assert run.masked
+    assert copy.masked
+    assert "forbidden" in copy.export_c().splitlines()[0] + copy.export_c().splitlines()[1]
+    if not isinstance(seen, dict):
+        with pytest.warns(errors.MaskWarning, match="pass action_masks="):
+            copy.predict(seen)
+        copy.predict(seen)  # it is said once
+        with pytest.warns(errors.MaskWarning):
+            pickle.loads(pickle.dumps(run)).evaluate(Line(limit=30), 1)
+    plain = rlvc.learn(Line(limit=30), 300, seed=1)
+    assert not plain.masked
+    assert "forbidden" not in plain.export_c()
+
+
 @pytest.mark.parametrize("where", ["info", "observation"])
 def test_forbidden_actions_are_not_taken(where):
     class Masked(Line):
@@ -239,6 +269,7 @@ def test_forbidden_actions_are_not_taken(where):
         )
     run = rlvc.learn(env, 3000, seed=1, discount=0.9)
     assert run.evaluate(env, 30).mean == 1.0
+    acts_by_masks(run, env)
     envs = (
         gymnasium.vector.SyncVectorEnv([lambda: Masked(limit=30)] * 3) if where == "info" else None
     )

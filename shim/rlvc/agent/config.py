@@ -9,8 +9,8 @@ import math
 from typing import Literal, get_args
 
 from .. import _native
-from ..checks import known
 from ..errors import ConfigError
+from .fields import Fields
 
 Criterion = Literal["returns", "residual"]
 Score = Literal["gain", "ranks"]
@@ -27,7 +27,7 @@ CHOICES: dict[str, tuple[str, ...]] = {
 
 
 @dataclasses.dataclass(frozen=True)
-class Config:
+class Config(Fields):
     """How an agent learns. It is fixed when the agent is made.
 
     Parameters
@@ -100,6 +100,8 @@ class Config:
     has more details.
     """
 
+    _learner = "an agent"
+
     actions: int
     capacity: int = 2000
     classes: int = 64
@@ -122,21 +124,6 @@ class Config:
     learning_rate: float = 0.1
     smallest_effect: float = 0.0
 
-    def replace(self, **changes: object) -> Config:
-        """Return a copy with some fields changed.
-
-        Parameters
-        ----------
-        **changes
-            Fields of the config and their new values.
-
-        Returns
-        -------
-        Config
-            The copy.
-        """
-        known(changes, (field.name for field in dataclasses.fields(self)), "an agent")
-        return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
 
 
 def _native_value(field: str, kind: object, value: object) -> object:

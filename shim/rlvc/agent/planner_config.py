@@ -6,11 +6,12 @@ from __future__ import annotations
 import dataclasses
 
 from .. import _native
-from ..checks import known, whole
+from ..checks import whole
+from .fields import Fields
 
 
 @dataclasses.dataclass(frozen=True)
-class PlannerConfig:
+class PlannerConfig(Fields):
     """How a planner learns. It is fixed when the planner is made.
 
     Parameters
@@ -45,6 +46,8 @@ class PlannerConfig:
     ``core/include/rlvc/agent.h`` has more details.
     """
 
+    _learner = "a planner"
+
     actions: int
     capacity: int = 2000
     sample: int = 2000
@@ -56,21 +59,6 @@ class PlannerConfig:
     patience: int = 300
     seed: int = 1
 
-    def replace(self, **changes: object) -> PlannerConfig:
-        """Return a copy with some fields changed.
-
-        Parameters
-        ----------
-        **changes
-            Fields of the config and their new values.
-
-        Returns
-        -------
-        PlannerConfig
-            The copy.
-        """
-        known(changes, (field.name for field in dataclasses.fields(self)), "a planner")
-        return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
 
 
 def to_native(config: PlannerConfig, domain: _native.Domain) -> _native.Config:

@@ -8,6 +8,7 @@ import ast
 import io
 import json
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -81,10 +82,26 @@ def _write(file: str, text: str) -> None:
         files.replace(file, text.encode())
 
 
+def _sort_out(arguments: argparse.Namespace) -> None:
+    """What is named is one environment, or files of logs."""
+    named, arguments.env = arguments.env, None
+    if len(named) > 1 or (named and _is_log(named[0])):
+        arguments.log = [*named, *(arguments.log or ())]
+    elif named:
+        arguments.env = named[0]
+    if (arguments.env is None) == (arguments.log is None):
+        raise Error("learn: give either ENV or files of logs")
+
+
+def _is_log(name: str) -> bool:
+    """Whether a name is that of a log, and not of an environment."""
+    others = (".npz", ".npy", ".hdf5", ".h5", ".parquet", ".pkl", ".gz", ".bz2", ".xz", ".zip")
+    return Path(name).exists() or Path(name).suffix.lower() in (*logs.SUFFIXES, *others)
+
+
 def learn_command(arguments: argparse.Namespace) -> int:
     """Learn, write and print what was learnt."""
-    if (arguments.env is None) == (arguments.log is None):
-        raise Error("learn: give either ENV or --log FILE")
+    _sort_out(arguments)
     if arguments.seeds is not None:
         return _learn_often(arguments)
     env = None
@@ -97,7 +114,8 @@ def learn_command(arguments: argparse.Namespace) -> int:
                 *("columns", "header", "roles", "actions", "bins", "thresholds", "names"),
                 *("history", "steps"),
             )
-            run = learn_from(arguments.log, seed=arguments.seed, **_chosen(arguments, *options))
+            found = arguments.log[0] if len(arguments.log) == 1 else arguments.log
+            run = learn_from(found, seed=arguments.seed, **_chosen(arguments, *options))
     except Exception as error:
         if isinstance(getattr(error, "run", None), Run):
             _keep(error.run, env, arguments)  # type: ignore[attr-defined]
@@ -263,9 +281,10 @@ def plot_command(arguments: argparse.Namespace) -> int:
 
 
 def log_command(arguments: argparse.Namespace) -> int:
-    """Show how a log is understood."""
+    """Show how logs are understood."""
     options = {name: getattr(arguments, name) for name in _LOG_OPTIONS}
-    print(logs.described(arguments.log, **options), end="")
+    found = arguments.log[0] if len(arguments.log) == 1 else arguments.log
+    print(logs.described(found, **options), end="")
     return 0
 
 

@@ -164,8 +164,9 @@ def _add_learn(commands: Any) -> None:
         description="Learns from a Gymnasium environment or from a log, and prints the tree.",
     )
     add = learn.add_argument
-    add("env", nargs="?", metavar="ENV", help="environment, such as FrozenLake-v1 or MODULE:ID")
-    add("--log", metavar="FILE", help="log of any kind, or name of a Minari data set")
+    add("env", nargs="*", metavar="ENV",
+        help="environment, such as FrozenLake-v1 or MODULE:ID; or files of logs")  # fmt: skip
+    add("--log", metavar="FILE", nargs="+", help="logs of any kind, or name of a Minari data set")
     add("--interactions", type=_whole, metavar="N", default=10_000,
         help="number of interactions with ENV (default: %(default)s)")  # fmt: skip
     add("--seed", type=_seed, metavar="N", default=1,
@@ -270,10 +271,10 @@ def make_parser() -> argparse.ArgumentParser:
 
     log = commands.add_parser(
         "log",
-        help="show how a log is understood",
-        description="Shows how a log is understood, and what of it is left out, without learning.",
+        help="show how logs are understood",
+        description="Shows how logs are understood, and what of them is left out, without learning.",
     )
-    log.add_argument("log", metavar="FILE")
+    log.add_argument("log", metavar="FILE", nargs="+")
     convert = commands.add_parser(
         "convert",
         help="write a log of any kind as NPZ",

@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from .. import _native
 from ..agent.agent import Agent
-from ..agent.policy import Policy
 from ..agent.results import CHOICE
 from ..checks import flag, real, whole
 from ..counts import rounds
@@ -75,33 +74,6 @@ class FleetRun(Run):
 
     report: Report
     sample: npt.NDArray[np.uint8]
-
-    def compact(self, tolerance: float | None = None, **limits: Any) -> FleetRun:
-        """Let the smallest policy act that acts as well on a sample of the fleet's percepts.
-
-        Parameters
-        ----------
-        tolerance : float or None
-        **limits
-            As of :meth:`rlvc.Agent.compact`.
-
-        Returns
-        -------
-        FleetRun
-            This one.
-        """
-        self.small = self._seeing().compact(tolerance, **limits)
-        self.compaction = {"tolerance": tolerance, **limits}
-        return self
-
-    def policy(self) -> Policy:
-        """Make a policy by itself: the compact one.
-
-        Returns
-        -------
-        Policy
-        """
-        return self.small if self.small is not None else self._seeing().compact()
 
     def _seeing(self) -> Agent:
         """A copy of the agent that holds the sample, as interactions that end at once."""

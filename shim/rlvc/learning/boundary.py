@@ -9,6 +9,7 @@ error says what the environment should return. What an environment raises itself
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -58,12 +59,7 @@ def reset(env: Any, **arguments: Any) -> Any:
     observation, dict
         The first observation, and the info.
     """
-    try:
-        returned = env.reset(**arguments)
-    except Error:
-        raise
-    except Exception as error:
-        raise _raised("reset()", error) from error
+    returned = _called("reset", env.reset, **arguments)
     if not isinstance(returned, tuple) or len(returned) != 2 or not isinstance(returned[1], dict):
         raise EnvError(f"reset() returned {returned!r:.80}, expected (observation, info): {_OLD}")
     return returned
@@ -82,12 +78,7 @@ def step(env: Any, action: Any) -> tuple[Any, float, bool, bool, Any]:
     observation, float, bool, bool, dict
         The next observation, the reward, terminated, truncated, and the info.
     """
-    try:
-        returned = env.step(action)
-    except Error:
-        raise
-    except Exception as error:
-        raise _raised(f"step({action!r:.80})", error) from error
+    returned = _called("step", env.step, action)
     observation, reward, terminated, truncated, info = _five(returned)
     if (
         terminated.__class__ is bool
@@ -118,12 +109,7 @@ def step_all(env: Any, chosen: npt.NDArray[Any]) -> tuple[Any, Any, Any, Any, An
     observations, float64 [n], bool [n], bool [n], dict
         The next observations, the rewards, terminated, truncated, and the info.
     """
-    try:
-        returned = env.step(chosen)
-    except Error:
-        raise
-    except Exception as error:
-        raise _raised(f"step({chosen!r:.80})", error) from error
+    returned = _called("step", env.step, chosen)
     observations, rewards, terminated, truncated, info = _five(returned)
 
     def flags(name: str, values: Any) -> npt.NDArray[np.bool_]:
@@ -150,8 +136,16 @@ def step_all(env: Any, chosen: npt.NDArray[Any]) -> tuple[Any, Any, Any, Any, An
     )
 
 
-def _raised(call: str, error: Exception) -> EnvError:
-    return EnvError(f"{call} of the environment raised {type(error).__name__}: {error}")
+def _called(name: str, method: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+    """What a method of the environment returns; what it raises is the cause of an EnvError."""
+    try:
+        return method(*arguments, **options)
+    except Error:
+        raise
+    except Exception as error:
+        call = f"{name}({', '.join(f'{argument!r:.80}' for argument in arguments)})"
+        fault = f"{type(error).__name__}: {error}"
+        raise EnvError(f"{call} of the environment raised {fault}") from error
 
 
 def _five(returned: Any) -> Any:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ..errors import ConfigError, EnvError
 from . import boundary
 from .actions import Actions
+from .masks import masks_of
 
 
 class Environment:
@@ -22,6 +23,8 @@ class Environment:
         What was seen last.
     masks : ndarray of bool, [n, actions], or None
         Which actions the environment allows now; None: all.
+    masked : bool
+        Whether there was a mask since the start.
     dead : ndarray of bool, [n]
         Environments of a vector whose next step only resets them.
     """
@@ -41,6 +44,7 @@ class Environment:
         self.manual = "DISABLED" in mode.upper()
         self.dead = np.zeros(self.count, np.bool_)
         self.masks: npt.NDArray[np.bool_] | None = None
+        self.masked = False
         self.current: Any = None
 
     def start(self, actions: Actions, seed: int | None) -> None:
@@ -56,6 +60,7 @@ class Environment:
         self.actions = actions
         if self.vector and actions.hold > 1:
             raise ConfigError("hold: needs a single environment, not a vector")
+        self.masked = False
         self._table = [actions.of(index) for index in range(actions.count)]
         self.dead = np.zeros(self.count, np.bool_)
         self._see(*boundary.reset(self.env, **({} if seed is None else {"seed": seed})))
@@ -72,15 +77,8 @@ class Environment:
         if mask is None:
             self.masks = None
             return
-        try:
-            masks = np.asarray(mask).reshape(self.count, -1)
-        except ValueError:  # ragged, or not one for each environment
-            masks = np.empty((self.count, 0))
-        if masks.shape[1] != self.actions.count or masks.dtype.kind not in "biuf":
-            self.masks = None
-            return
-        self.masks = masks.astype(np.bool_)
-        self.masks |= ~self.masks.any(axis=1, keepdims=True)  # none allowed: none is forbidden
+        self.masks = masks_of(mask, self.count, self.actions.count)
+        self.masked = self.masked or self.masks is not None
 
     def split(self, batch: Any) -> list[Any]:
         """Return the observations of a batch as a list."""

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ..checks import whole
 from ..errors import ConfigError
 from .environment import Environment
-from .masks import best_allowed
+from .masks import best_allowed, warn
 
 if TYPE_CHECKING:
     from .run import Run
@@ -67,7 +67,10 @@ def evaluate(run: Run, env: Any, episodes: int, seed: int, max_steps: int) -> Ev
         raise ConfigError("evaluate: a run on percepts has no encoder for observations")
     stream.start(run.actions, seed)
     play = _play_all if stream.vector else _play
-    return play(run, stream, episodes, max_steps)
+    evaluation = play(run, stream, episodes, max_steps)
+    if not stream.masked:
+        warn(run)
+    return evaluation
 
 
 def _play(run: Run, stream: Environment, episodes: int, max_steps: int) -> Evaluation:

@@ -21,12 +21,22 @@ def header(run: Run, name: str) -> str:
     """Return the header: see :meth:`rlvc.Run.export_c`."""
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]{0,47}", name):
         raise RangeError(f"name: {name!r:.80} is not an identifier of C of at most 48 characters")
-    text = run.acting.export_c(name)
+    text = _masks(run, name) + run.acting.export_c(name)
     more = _percept(run) + _actions(run, name)
     if not more:
         return text
     end = text.rindex("#endif")
     return f"{text[:end]}{more}\n{text[end:]}"
+
+
+def _masks(run: Run, name: str) -> str:
+    """A comment on what the policy was spared while it learnt."""
+    if not run.masked:
+        return ""
+    return (
+        f"/* Learnt with action masks, which {name}_act does not know: it may return an action that is\n"
+        " * forbidden. Check it before you take it. */\n"
+    )
 
 
 def _percept(run: Run) -> str:

@@ -223,6 +223,7 @@ def learn(
     bar = _bar(interactions, progress)
     try:
         for splits in _steps(run, learner):
+            run.masked = run.masked or stream.masked
             _note(run, learner, splits, bar)
             answers = [call(run) for call in calls]  # all are called
             if any(answer is True for answer in answers):
@@ -233,6 +234,7 @@ def learn(
         _explain(error, run, learner)
         raise
     finally:
+        run.masked = run.masked or stream.masked
         if bar is not None:
             bar.close()
     return run

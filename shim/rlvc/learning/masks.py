@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..agent.agent import Agent
+from ..errors import ConfigError, MaskWarning
 
 if TYPE_CHECKING:
     from .run import Run
@@ -67,3 +69,73 @@ def best_allowed(run: Run, percept: Any, action: int, mask: npt.NDArray[np.bool_
         if len(tried):
             return int(tried[np.argmax(q[class_id][tried])])
     return int(options[np.searchsorted(options, action) % len(options)])
+
+
+def masks_of(mask: Any, count: int, actions: int) -> npt.NDArray[np.bool_] | None:
+    """Return the masks of some environments; None if they are not an ``action_mask``.
+
+    Parameters
+    ----------
+    mask : array of numbers or bool, [actions] or [count, actions]
+    count : int
+        Number of environments.
+    actions : int
+        Number of actions.
+
+    Returns
+    -------
+    ndarray of bool, [count, actions], or None
+        Where no action is allowed, none is forbidden.
+    """
+    try:
+        masks = np.asarray(mask).reshape(count, -1)
+    except ValueError:  # ragged, or not one for each environment
+        return None
+    if masks.shape[1] != actions or masks.dtype.kind not in "biuf":
+        return None
+    masks = masks.astype(np.bool_)
+    return np.asarray(masks | ~masks.any(axis=1, keepdims=True))
+
+
+def at_hand(run: Run, observation: Any, given: Any, count: int) -> npt.NDArray[np.bool_] | None:
+    """Return the masks to act by: those that are given, else those in the observation.
+
+    Parameters
+    ----------
+    run : Run
+        If it learnt with masks, and there is none, it warns once.
+    observation : element of the environment's space, or a batch of them
+    given : array, [actions] or [count, actions], or None
+    count : int
+        Of the batch; 1: a single observation.
+
+    Returns
+    -------
+    ndarray of bool, [count, actions], or None
+    """
+    actions = run.actions.count
+    if given is not None:
+        masks = masks_of(given, count, actions)
+        if masks is None:
+            raise ConfigError(
+                f"action_masks: {given!r:.80}: expected {actions} truth values"
+                + (f" for each of {count} observations" if count > 1 else "")
+            )
+        return masks
+    inside = observation.get("action_mask") if isinstance(observation, dict) else None
+    masks = None if inside is None else masks_of(inside, count, actions)
+    if masks is None:
+        warn(run)
+    return masks
+
+
+def warn(run: Run) -> None:
+    """Warn, once, of a run that learnt with masks and acts without one."""
+    if run.masked and not run.told_of_masks:
+        run.told_of_masks = True
+        warnings.warn(
+            "the run learnt with action masks and acts without one: it may choose a forbidden action; "
+            "pass action_masks=",
+            MaskWarning,
+            stacklevel=5,
+        )

@@ -26,6 +26,8 @@ from .actions import Actions
 from .encode import Encoder
 from .evaluation import Evaluation, evaluate
 from .explanation import Explanation, Seen
+from .masks import at_hand as masks_at_hand
+from .masks import best_allowed
 
 if TYPE_CHECKING:
     import gymnasium
@@ -99,6 +101,9 @@ class Run:
     seed : int
     interrupted : bool
         Whether Ctrl-C ended learning.
+    masked : bool
+        Whether the environment forbade actions by an ``action_mask`` while learning. Where such a run
+        acts without one, it gives a :class:`~rlvc.errors.MaskWarning`, once.
     small : Policy or None
         What :meth:`compact` made; it acts instead of the learner.
     seen : Seen
@@ -119,6 +124,8 @@ class Run:
         self.actions = actions
         self.history: list[Record] = []
         self.interrupted = False
+        self.masked = False
+        self.told_of_masks = False
         self.small: Policy | None = None
         self.seen = Seen()
         self.compaction: dict[str, Any] | None = None  # the arguments of compact()
@@ -223,7 +230,7 @@ class Run:
         found = acting.act(percepts) if isinstance(acting, Policy) else acting.predict(percepts)
         return np.asarray(found)
 
-    def predict(self, observation: Any) -> Any:
+    def predict(self, observation: Any, action_masks: Any = None) -> Any:
         """Return the action of the learnt policy at an observation, or at each of a batch.
 
         Parameters
@@ -231,6 +238,9 @@ class Run:
         observation : element of the environment's space, or arrays of n of them
             A batch is what a vector environment returns: arrays [n, ...], in dicts or tuples; of a
             log's columns a table, or rows.
+        action_masks : array of truth values, [actions], for a batch [n, actions], or None
+            The actions that are allowed: the best of them is taken. None: the ``action_mask`` in the
+            observation, if there is one, else all.
 
         Returns
         -------
@@ -241,11 +251,23 @@ class Run:
         ------
         PerceptError
             It is not an element of the space, or contains NaN.
+        ConfigError
+            ``action_masks`` has another shape.
+
+        Warns
+        -----
+        MaskWarning
+            The run learnt with masks, and there is none.
         """
         try:
             if self._is_batch(observation):
-                return self.actions.of_many(self.indices(self.percepts(observation)))
-            return self.act(observation)
+                percepts = self.percepts(observation)
+                chosen = self.indices(percepts)
+                masks = masks_at_hand(self, observation, action_masks, len(percepts))
+                for i, mask in enumerate(() if masks is None else masks):
+                    chosen[i] = best_allowed(self, percepts[i], int(chosen[i]), mask)
+                return self.actions.of_many(chosen)
+            return self.act(observation, action_masks)
         except PerceptError:
             if isinstance(observation, tuple) and isinstance(observation[-1], dict):
                 raise PerceptError(
@@ -258,18 +280,24 @@ class Run:
             return np.ndim(observation) > len(self.learner.domain.percept_shape)
         return isinstance(self.encoder, Encoder) and self.encoder.is_batch(observation)
 
-    def act(self, observation: Any) -> Any:
+    def act(self, observation: Any, action_masks: Any = None) -> Any:
         """Return the action at one observation: as :meth:`predict`, which also takes batches.
 
         Parameters
         ----------
         observation : element of the environment's space
+        action_masks : array of truth values, [actions], or None
 
         Returns
         -------
         int or ndarray
         """
-        return self.actions.of(self.index(self.percept(observation)))
+        percept = self.percept(observation)
+        chosen = self.index(percept)
+        masks = masks_at_hand(self, observation, action_masks, 1)
+        if masks is not None:
+            chosen = best_allowed(self, percept, chosen, masks[0])
+        return self.actions.of(chosen)
 
     def tables(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.uint32]]:
         """Return Q and the number of samples of each class and action of an agent."""
@@ -356,9 +384,13 @@ class Run:
             already.
         """
         if isinstance(self.learner, Agent):
-            self.small = self.learner.compact(tolerance, **limits)
+            self.small = self._seeing().compact(tolerance, **limits)
             self.compaction = {"tolerance": tolerance, **limits}
         return self
+
+    def _seeing(self) -> Agent:
+        """The agent that holds the percepts at which a small policy must act as well."""
+        return self.agent
 
     def policy(self) -> Policy:
         """Make a policy by itself: that of the planner, or the agent's ``compact()``.
@@ -370,7 +402,7 @@ class Run:
         acting = self.acting
         if isinstance(acting, Policy):
             return acting
-        return acting.policy() if isinstance(acting, Planner) else acting.compact()
+        return acting.policy() if isinstance(acting, Planner) else self._seeing().compact()
 
     def save(self, file: str | Path) -> None:
         """Write the run to a file: :func:`rlvc.load` reads it.

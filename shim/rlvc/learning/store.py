@@ -66,6 +66,7 @@ def packed(run: Run) -> bytes:
         "compaction": run.compaction if run.small is not None else None,
         "seed": run.seed,
         "interrupted": run.interrupted,
+        "masked": run.masked,
         "interactions": run.interactions,
         "warning": run.warning,
         "history": [dataclasses.astuple(record) for record in run.history],
@@ -155,6 +156,7 @@ def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None
         raise SnapshotError("damaged: the encoder makes percepts of another size")
     run = Run(learner, encoder, whole("seed", head["seed"], *_WHOLE), actions)
     run.interrupted = flag("interrupted", head["interrupted"])
+    run.masked = flag("masked", head.get("masked", False))  # older files do not say it
     run.history = [_record(record) for record in head["history"]]
     run.seen = _seen(kept, domain.percept_bytes, *head["seen"])
     if isinstance(learner, PlannedPolicy):

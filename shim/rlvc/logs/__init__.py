@@ -34,9 +34,11 @@ read or is damaged; the message names the file, the line, index or column, and t
 
 from .array_log import from_arrays, from_hdf5
 from .buffer_log import from_buffer
+from .content import SUFFIXES
 from .controller_log import from_records
 from .csv_log import from_csv
 from .frame_log import from_frame, from_parquet
+from .joined import joined
 from .learn_from import learn_from
 from .log import Log
 from .minari_log import from_minari
@@ -45,6 +47,7 @@ from .past import with_history
 from .read import described, read
 
 __all__ = [
+    "SUFFIXES",
     "Log",
     "described",
     "from_arrays",
@@ -59,6 +62,7 @@ __all__ = [
     "from_parquet",
     "from_pickle",
     "from_records",
+    "joined",
     "learn_from",
     "read",
     "with_history",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .table import Table
 
 Array = npt.NDArray[Any]
+_GRID_MAX, _GRID_ROWS = 32, 8  # real numbers are a grid: at most so many, each in so many rows
 
 
 def understood(
@@ -105,6 +106,8 @@ def _of_numbers(
     flat = values.reshape(len(values), -1)
     if values.dtype.kind == "f":
         bad = np.flatnonzero((flat % 1 != 0).any(axis=1))
+        if len(bad) and _few(flat):
+            return _distinct(table, label, values)
         if len(bad):
             raise table.wrong(
                 rows[bad[0]],
@@ -123,6 +126,12 @@ def _of_numbers(
     return _distinct(table, label, numbers)
 
 
+def _few(rows: Array) -> bool:
+    """Whether real numbers are of a grid, and not measured: few, and each occurs often."""
+    count = len(np.unique(rows, axis=0))
+    return count <= _GRID_MAX and len(rows) >= _GRID_ROWS * count
+
+
 def _distinct(table: Table, label: str, values: Array) -> tuple[npt.NDArray[np.int64], Actions]:
     """Each combination of numbers that occurs is an action."""
     found, index = np.unique(values, axis=0, return_inverse=True)
@@ -132,5 +141,6 @@ def _distinct(table: Table, label: str, values: Array) -> tuple[npt.NDArray[np.i
             "divide them into a grid"
         )
     table.notes.append(f"{label}: {len(found)} different values are the actions")
-    found = found.astype(np.int64) if found.dtype.kind in "fu" else found
+    if found.dtype.kind == "u" or (found.dtype.kind == "f" and (found % 1 == 0).all()):
+        found = found.astype(np.int64)
     return index.ravel().astype(np.int64), Actions(len(found), table=found)

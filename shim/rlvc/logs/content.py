@@ -13,7 +13,10 @@ from typing import IO, Any
 
 from ..errors import LogError
 from ..files import open_file
+from .log import counted
 
+SUFFIXES = (".csv", ".tsv", ".tab", ".txt", ".dat", ".json", ".jsonl", ".ndjson")
+"""Of files with a log as text."""
 _MOST = 1 << 32  # bytes of an unpacked file: more may be an attack
 _PACKED: tuple[tuple[bytes, Any], ...] = (
     (b"\x1f\x8b", gzip.open),
@@ -83,11 +86,10 @@ def _whole(file: IO[bytes], path: str | Path) -> bytes:
 
 def only_log_in(archive: zipfile.ZipFile) -> str | None:
     """Of a ZIP with one log in it the name of that; None of an NPZ and of others."""
-    endings = (".csv", ".tsv", ".txt", ".dat", ".json", ".jsonl", ".ndjson")
     found = [
         name
         for name in archive.namelist()
-        if name.lower().endswith(endings) and not name.startswith("__MACOSX")
+        if name.lower().endswith(SUFFIXES) and not name.startswith("__MACOSX")
     ]
     return found[0] if len(found) == 1 else None
 
@@ -103,7 +105,7 @@ def why_no_arrays(names: list[str]) -> str:
     return ""
 
 
-def text_of(path: str | Path, notes: list[str]) -> str:
+def text_of(path: str | Path, notes: list[str], lost: list[str]) -> str:
     """Read a text: UTF-8, UTF-16, or what Windows and Excel call ANSI.
 
     Parameters
@@ -111,6 +113,8 @@ def text_of(path: str | Path, notes: list[str]) -> str:
     path : str or Path
     notes : list of str
         Takes a line about the encoding, if it had to be guessed.
+    lost : list of str
+        Takes a line about bytes 0, which are left out: a logger without power leaves them behind.
 
     Returns
     -------
@@ -127,7 +131,14 @@ def text_of(path: str | Path, notes: list[str]) -> str:
             raise LogError(f"{path}: cannot be read as text: {error}") from None
         text = content.decode("cp1252", errors="replace")
         notes.append("not UTF-8: read as Windows-1252")
-    return text.removesuffix("\x1a")  # an old end of file
+    text = text.lstrip("\ufeff")
+    count = text.count("\0")
+    if count:
+        line = text.count("\n", 0, text.index("\0")) + 1
+        lost.append(f"{counted(count, 'byte')} 0, which is no text, and left out, first line {line}")
+        text = text.replace("\0", "")
+    ended = text.rstrip()
+    return ended[:-1] if ended.endswith("\x1a") else text  # an old end of file
 
 
 def as_file(path: str | Path) -> IO[bytes]:

@@ -15,7 +15,7 @@ import numpy as np
 from ..errors import LogError
 from .content import text_of
 from .log import Log
-from .roles import NAMES
+from .roles import NAMES, are_numbered
 from .table import Array, Table, from_table
 from .values import column_of, is_value
 
@@ -56,9 +56,13 @@ def from_csv(
 def table_of(path: str | Path, header: Sequence[str] | None = None) -> Table:
     """Read the table of a text file."""
     notes: list[str] = []
-    lines, comment = _lines(text_of(path, notes), path)
+    lost: list[str] = []
+    text = text_of(path, notes, lost)
+    lines, comment = _lines(text, path)
+    if not lines:
+        raise LogError(f"{path}: is empty: there is no interaction")
     delimiter = _delimiter(lines)
-    rows = _fields(lines, delimiter, path)
+    rows = _fields(lines, delimiter, path, lost if _is_cut(text) else None)
     names, rows, head = _named(rows, header, comment, delimiter, path)
     again = [line for line, row in rows if row == names]
     parts = np.array([sum(line > other for other in again) for line, row in rows if row != names])
@@ -66,6 +70,10 @@ def table_of(path: str | Path, header: Sequence[str] | None = None) -> Table:
     if again:
         notes.append(f"the names of the columns stand again in line {again[0]}: another log begins")
     names, rows = _without_blanks(names, rows)
+    if _is_cut(text) and len(rows) > 1 and _stops_short(names, rows):
+        lost.append(f"line {rows.pop()[0]} is cut off, and left out")
+        parts = parts[: len(rows)]
+    names = _apart(names, f"{path}: {head}", notes)
     for line, row in rows:
         if len(row) != len(names):
             raise LogError(f"{path}: line {line}: {len(row)} fields, not {len(names)}")
@@ -83,7 +91,40 @@ def table_of(path: str | Path, header: Sequence[str] | None = None) -> Table:
         texts = _with_points([row[i] for _, row in rows], name, delimiter, place, notes, path)
         parsed[name] = column_of(name, texts, place, str(path), notes)
     kept = parts if again else None
-    return Table(parsed, place, str(path), notes, head, kept)
+    return Table(parsed, place, str(path), notes, head, kept, lost)
+
+
+def _is_cut(text: str) -> bool:
+    """Whether a text may have been cut off: its last line has no end."""
+    return not text.endswith(("\n", "\r"))
+
+
+def _stops_short(names: list[str], rows: list[tuple[int, list[str]]]) -> bool:
+    """Whether the last row lacks fields, or its last word is the beginning of one above it."""
+    last = rows[-1][1]
+    if len(last) != len(names):
+        return len(last) < len(names)
+    words = {row[-1] for _, row in rows[:-1] if len(row) == len(names)}
+    begun = any(word.startswith(last[-1]) for word in words - {last[-1]})
+    return last[-1] not in words and last[-1].isalpha() and begun
+
+
+def _apart(names: list[str], where: str, notes: list[str]) -> list[str]:
+    """Columns of the observation that have one name as x_0, x_1; those of other roles are refused."""
+    twice = [name for name in dict.fromkeys(names) if name and names.count(name) > 1]
+    made = list(names)
+    for name in twice:
+        places = [i for i, other in enumerate(names) if other == name]
+        numbered = [f"{name}_{k}" for k in range(len(places))]
+        if set(numbered) & set(names) or not are_numbered(name, numbered, names):
+            columns = " and ".join(str(i + 1) for i in places)
+            raise LogError(
+                f"{where}: columns {columns} have the same name {name}: rename them, or leave one out"
+            )
+        for i, unique in zip(places, numbered, strict=True):
+            made[i] = unique
+        notes.append(f"{len(places)} columns are named {name}: taken as {', '.join(numbered)}")
+    return made
 
 
 def _without_blanks(
@@ -128,6 +169,7 @@ def _lines(text: str, path: str | Path) -> tuple[list[tuple[int, str]], str]:
     """The lines that are neither blank nor comments, with their numbers; and the last comment before."""
     lines: list[tuple[int, str]] = []
     comment = ""
+    text = text.translate({ord("\f"): " ", ord("\v"): " "})
     for number, line in enumerate(io.StringIO(text, newline=None).read().split("\n"), 1):
         bad = next((c for c in line if ord(c) < 32 and c != "\t"), None)
         if bad is not None:
@@ -159,8 +201,10 @@ def _unquoted(line: str) -> str:
 
 
 def _fields(
-    lines: list[tuple[int, str]], delimiter: str, path: str | Path
+    lines: list[tuple[int, str]], delimiter: str, path: str | Path, cut: list[str] | None
 ) -> list[tuple[int, list[str]]]:
+    """The fields of each row; one cut off within quotes at the end is left out, and `cut` says so."""
+    rows: list[tuple[int, list[str]]] = []
     beside = re.compile(f'"[ \\t]+(?={re.escape(delimiter)})')  # blanks after a quoted field
     try:
         reader = csv.reader(
@@ -169,12 +213,16 @@ def _fields(
             strict=True,
             skipinitialspace=True,
         )
-        rows = []
+        before = 0  # lines of the rows so far
         for row in reader:
             number = lines[reader.line_num - 1][0]
             rows.append((number, _joined([field.strip() for field in row], delimiter)))
+            before = reader.line_num
     except csv.Error as error:
-        raise LogError(f"{path}: cannot be read as CSV: {error}") from error
+        number = lines[min(before, len(lines) - 1)][0]
+        if cut is None or not rows or before < len(lines) - 1:
+            raise LogError(f"{path}: line {number}: cannot be read as CSV: {error}") from error
+        cut.append(f"line {number} is cut off, and left out")
     return rows
 
 
@@ -218,6 +266,4 @@ def _named(
                     f"header=[...], the {len(names)} names"
                 )
             rows, names, head = [(line, names), *rows], beside, "the comment"
-    if len(set(names)) != len(names):
-        raise LogError(f"{path}: {head}: two columns have the same name")
     return names, rows, head

@@ -145,10 +145,10 @@ def learn_from(
 
     Parameters
     ----------
-    log : dict of arrays, pandas.DataFrame, path, Minari data set or its name, or replay buffer
+    log : dict of arrays, pandas.DataFrame, path, list of paths, Minari data set or its name, or buffer
         The formats are in :mod:`rlvc.logs`; ``rlvc.logs.read(log).describe()`` says how one is
         understood. A file is CSV in any dialect, JSON, JSON Lines, NPZ, HDF5, Parquet, or the log of a
-        controller.
+        controller. Of several files no episode goes on from one to the next.
     columns : sequence of str or None
         Columns that form the observation. None: those that are named so, else all without another
         meaning.

@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import LogError
 from .array_log import from_arrays, from_episodes
 from .content import as_file, text_of, why_no_arrays
-from .log import Log
+from .log import Log, warn
 from .pickled import array_of, unpickled
 
 _LISTS = ("episodes", "trajectories", "transitions", "steps", "data")
@@ -170,24 +170,31 @@ def from_json(path: str | Path, header: Sequence[str] | None = None, **arguments
     **arguments
         Of :func:`rlvc.logs.from_arrays`.
     """
-    text = text_of(path, [])
+    lost: list[str] = []
+    text = text_of(path, [], lost)
     try:
         found = json.loads(text)
     except RecursionError:
         raise LogError(f"{path}: cannot be read as JSON: too deep") from None
     except ValueError:
-        found = _lines(text, path)
-    return from_objects(found, str(path), header, **arguments)
+        found = _lines(text, path, lost)
+    log = from_objects(found, str(path), header, **arguments)
+    for fault in lost:
+        warn(log, fault)
+    return log
 
 
-def _lines(text: str, path: str | Path) -> list[Any]:
+def _lines(text: str, path: str | Path, lost: list[str]) -> list[Any]:
+    """What is on each line; a last one that was cut off is left out, and `lost` says so."""
     rows = []
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.strip():
-            try:
-                rows.append(json.loads(line))
-            except (RecursionError, ValueError) as error:
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    for number, line in lines:
+        try:
+            rows.append(json.loads(line))
+        except (RecursionError, ValueError) as error:
+            if not rows or number != lines[-1][0] or text.endswith("\n"):
                 raise LogError(f"{path}: line {number}: is not JSON: {error}") from None
+            lost.append(f"line {number} is cut off, and left out")
     return rows
 
 

@@ -157,17 +157,9 @@ def unpickled(file: IO[bytes], where: str | Path) -> Any:
 
 
 def array_of(file: IO[bytes], where: str | Path) -> Any:
-    """Read an array in the format NPY; of objects what they are.
+    """Read an array in the format NPY: an ndarray, or the object that is the only one in it.
 
-    Parameters
-    ----------
-    file : binary file
-    where : str or Path
-        For errors.
-
-    Returns
-    -------
-    ndarray, or the object that is the only one in it
+    As :func:`unpickled`, whose arguments and errors it has; those of numpy are not caught.
     """
     from numpy.lib import format as npy
 

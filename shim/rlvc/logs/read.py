@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import LogError
+from ..errors import ConfigError, LogError
 from ..files import open_file
 from .array_log import from_episodes, from_hdf5
 from .buffer_log import from_buffer, is_buffer
@@ -19,6 +19,7 @@ from .content import content_of, is_packed, is_wide
 from .controller_log import from_records, is_records
 from .csv_log import from_csv
 from .frame_log import FEATHER, from_frame, from_parquet
+from .joined import joined
 from .log import Log
 from .minari_log import from_minari
 from .object_log import from_json, from_npz, from_objects, from_pickle
@@ -62,7 +63,8 @@ def read(
     ----------
     log : dict of arrays, list, data frame, path, Minari data set or its name, replay buffer, or Log
         A file is CSV in any dialect, JSON, JSON Lines, NPZ, NPY, HDF5, Parquet, Feather, a pickle, or
-        the log of a controller; text may be compressed. A list is of interactions, or of episodes.
+        the log of a controller; text may be compressed. A list is of interactions, of episodes, or of
+        paths: several files are one log, and no episode goes on from one to the next.
     columns : sequence of str or None
         Columns of the observation. None: those that are named so, else all without another meaning.
     header : sequence of str or None
@@ -92,6 +94,12 @@ def read(
     options: dict[str, Any] = {"columns": columns, "bins": bins, "roles": roles}
     if isinstance(log, str | Path):
         return _from_file(log, header, options)
+    if isinstance(log, list | tuple) and log and all(isinstance(f, str | Path) for f in log):
+        if bins is not None and len(log) > 1:
+            raise ConfigError(
+                "bins: each file would have a grid of its own: join the files into one first"
+            )
+        return joined([_from_file(file, header, options) for file in log])
     if hasattr(log, "to_pandas"):  # of polars, Arrow, and Hugging Face's data sets
         log = log.to_pandas()
     if hasattr(log, "columns") and hasattr(log, "itertuples"):

@@ -138,6 +138,29 @@ def _before(name: str, names: Collection[str]) -> str | None:
     return rest if rest != name and pairs and (rest in names or _is_seen(rest)) else None
 
 
+def are_numbered(name: str, numbered: Sequence[str], listed: Sequence[str]) -> bool:
+    """Whether columns of one name that are numbered stay what one of them is: of the observation.
+
+    Parameters
+    ----------
+    name : str
+    numbered : sequence of str
+        The names that they would have.
+    listed : sequence of str
+        The names of all columns.
+
+    Returns
+    -------
+    bool
+    """
+    made = [name, *numbered]
+    plains = _plains([*made, *listed])
+    if any(plain in _ROLE for plain in plains[: len(made)]):
+        return False
+    after = [_before(plain, plains) is not None for plain in plains[: len(made)]]
+    return all(after) or not any(after)
+
+
 def _is_seen(name: str) -> bool:
     """Whether it is an observation by its name: ``state``, ``obs_0``, ``observation.x``."""
     head = re.split(r"[._\[/ ]|(?<=[a-z])\d", name, maxsplit=1)[0]

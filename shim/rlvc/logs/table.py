@@ -41,6 +41,10 @@ class Table:
     notes : list of str
     head : str
         Where the names of the columns are, for errors.
+    parts : ndarray [n] or None
+        Of files joined into one: which one each row is of.
+    lost : list of str
+        What was left out already: it is warned of.
     """
 
     columns: dict[str, Array]
@@ -48,7 +52,8 @@ class Table:
     where: str
     notes: list[str]
     head: str = ""
-    parts: Array | None = None  # of files joined into one: which one each row is of
+    parts: Array | None = None
+    lost: list[str] = dataclasses.field(default_factory=list)
 
     def wrong(self, i: int, name: str, fault: str) -> LogError:
         """An error that names the row and the column."""
@@ -99,13 +104,13 @@ def from_table(
             f"{', '.join(left_out)}: grows from row to row, so it is a clock: columns= would take it"
         )
     table = _in_order(table, roles)
-    if not len(next(iter(table.columns.values()))):
-        raise LogError(f"{table.where}: there is no interaction")
+    if not len(_any(table)):
+        raise LogError(f"{table.where}: there is no interaction: names of columns, and no row")
     _see_ends(table, roles)
     rows = _rows(table, roles)
     if columns is None and "observation" not in (given or {}):
         _refuse_leaks(table, roles, rows)
-    usable = _usable(table, roles.seen)
+    usable, rewarded = _usable(table, roles.seen), ~_missing(table.columns[roles.one["reward"]])
     following = bool(roles.after)
     if following:
         reached = rows.terminated | _usable(table, roles.after)
@@ -116,13 +121,12 @@ def from_table(
         last_seen = np.append(~rows.acted[1:], False) & rows.same
         led = rows.same & next_usable & (last_seen | ~rows.truncated)
         kept = rows.acted & usable & (rows.terminated | led)
+    unrewarded = np.flatnonzero(kept & ~rewarded)
+    kept &= rewarded
     chosen = np.flatnonzero(kept)
     if len(chosen) == 0:
-        blank = np.flatnonzero(~usable)
-        first = f", and none in {table.place(blank[0])}" if len(blank) else ""
-        raise LogError(
-            f"{table.where}: there is no interaction with an observation before and after it{first}"
-        )
+        raise _nothing_left(table, usable, unrewarded)
+    _see_infinite(table, [*roles.seen, *roles.after])
     space, before, after = _observations(table, roles, chosen, following)
     actions, meaning = understood(table, roles.actions, chosen, bins, known)
     rewards = _numbers(table, roles.one["reward"], chosen)
@@ -133,7 +137,9 @@ def from_table(
     ends = ends_of(rows.terminated, rows.truncated | last_seen)[chosen]
     notes = [*table.notes, *roles.notes()]
     log = Log(before, after, actions, rewards, ends, exploited, table.where, meaning, space, notes)
-    _tell(log, table, roles, rows, usable, kept)
+    _tell_of_rows(log, table, ~usable, "for want of an observation")
+    _tell_of_rows(log, table, unrewarded, "for want of a reward")
+    _tell(log, table, roles, rows, rows.acted & usable & rewarded & ~kept)
     if roles.alone:
         text = f"{', '.join(roles.alone)}: left out, as no column has the next value of it"
         warn(log, f"{text}: columns= would take it, and what is next from the next row")
@@ -177,23 +183,37 @@ def _refuse_leaks(table: Table, roles: Roles, rows: _Rows) -> None:
                 )
 
 
-def _tell(log: Log, table: Table, roles: Roles, rows: _Rows, usable: Array, kept: Array) -> None:
-    """Say which rows were dropped, and why."""
+def _nothing_left(table: Table, usable: Array, unrewarded: Array) -> LogError:
+    """An error that says why no row is an interaction."""
+    fault = "there is no interaction with an observation before and after it"
     blank = np.flatnonzero(~usable)
-    if len(blank):
-        warn(
-            log,
-            f"{counted(len(blank), 'row')} left out, for want of an observation, first "
-            f"{table.place(blank[0])}",
-        )
-    lost = np.flatnonzero(rows.acted & usable & ~kept)
+    if len(unrewarded):
+        fault = f"there is no interaction with a reward: none in {table.place(unrewarded[0])}"
+    elif len(blank):
+        fault += f", and none in {table.place(blank[0])}"
+    return LogError(f"{table.where}: {fault}")
+
+
+def _tell_of_rows(log: Log, table: Table, rows: Array, why: str) -> None:
+    """Say which rows were dropped; rows is a mask, or their numbers."""
+    rows = np.flatnonzero(rows) if rows.dtype == np.bool_ else rows
+    if len(rows):
+        first = table.place(rows[0])
+        warn(log, f"{counted(len(rows), 'row')} left out, {why}, first {first}")
+
+
+def _tell(log: Log, table: Table, roles: Roles, rows: _Rows, lost: Array) -> None:
+    """Say which interactions were dropped, and how episodes end."""
+    for text in table.lost:
+        warn(log, text)
+    lost, count = np.flatnonzero(lost), len(rows.acted)
     if len(lost):
         text = (
             f"{counted(len(lost), 'interaction')} left out, as what was observed next is not in the "
             f"log, first {table.place(lost[0])}: a row without an action after each episode, or columns "
             "next_..., would give it"
         )
-        if len(lost) == 1 and lost[0] >= len(kept) - 2:
+        if len(lost) == 1 and lost[0] >= count - 2:
             log.notes.append(text)  # the last one of a log that goes on
         else:
             warn(log, text)
@@ -270,7 +290,7 @@ def _see_ends(table: Table, roles: Roles) -> None:
 
 def _rows(table: Table, roles: Roles) -> _Rows:
     one = roles.one
-    count = len(next(iter(table.columns.values())))
+    count = len(_any(table))
     none = np.zeros(count, np.bool_)
     acted = np.ones(count, np.bool_)
     for name in roles.actions:
@@ -377,6 +397,8 @@ def _numbers(table: Table, name: str, rows: Array) -> Array:
     values = table.columns[name]
     if values.ndim == 2 and values.shape[1] == 1:
         values = values[:, 0]
+    if values.ndim == 1 and values.dtype.kind in "OU":
+        raise table.wrong(rows[0], name, f"{values[rows[0]]!r:.40} is not a number")
     if values.ndim != 1 or values.dtype.kind not in "bfiu":
         raise LogError(f"{table.where}: {name}: {values.dtype}{list(values.shape)} are no numbers")
     bad = rows[~np.isfinite(values[rows].astype(np.float64))]
@@ -397,19 +419,25 @@ def _usable(table: Table, names: list[str]) -> npt.NDArray[np.bool_]:
         values = table.columns[name]
         if values.dtype.kind == "f":
             flat = values.reshape(len(values), -1).astype(np.float64)
-            bad = np.flatnonzero((np.abs(flat) > _native.THRESHOLDS_NUMBER_MAX).any(axis=1))
+            large = (np.abs(flat) > _native.THRESHOLDS_NUMBER_MAX) & np.isfinite(flat)
+            bad = np.flatnonzero(large.any(axis=1))
             if len(bad):
-                value = values[bad[0]]
-                fault = (
-                    "is not a finite number"
-                    if np.isinf(value).any()
-                    else "is beyond 1e15: scale it"
-                )
-                raise table.wrong(bad[0], name, f"{value} {fault}")
+                raise table.wrong(bad[0], name, f"{values[bad[0]]} is beyond 1e15: scale it")
             usable &= ~np.isnan(flat).any(axis=1)
         elif values.dtype.kind in "OU":
             usable &= ~_missing(values)
     return usable
+
+
+def _see_infinite(table: Table, names: list[str]) -> None:
+    """Say where a number is infinite: it is clipped, as one of an environment is."""
+    for name in names:
+        if table.columns[name].dtype.kind == "f":
+            endless = np.isinf(table.columns[name]).reshape(len(_any(table)), -1)
+            if endless.any():
+                first = table.place(np.flatnonzero(endless.any(axis=1))[0])
+                text = f"{name}: {counted(int(endless.sum()), 'infinite number')} taken as 1e15"
+                table.notes.append(f"{text} or -1e15, as of an environment, first {first}")
 
 
 def _observations(
@@ -450,7 +478,7 @@ def _any(table: Table) -> Array:
 
 def _filled(values: Array) -> Array:
     """0 in place of what is missing after a terminated interaction, which nobody reads."""
-    return np.where(np.isfinite(values), values, 0) if values.dtype.kind == "f" else values
+    return np.where(np.isnan(values), 0, values) if values.dtype.kind == "f" else values
 
 
 def _expanded(name: str, first: Array, second: Array) -> Any:

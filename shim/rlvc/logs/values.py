@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import re
+import unicodedata
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -16,18 +18,40 @@ _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE | re.A
 _MEASURE = re.compile(
     r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))\s*([^\W\d_x][^\s\d]*|[%°]\S*)"
 )  # 21.5 C
-_HEX = re.compile(r"0x[0-9a-f]+", re.IGNORECASE | re.ASCII)
 _BITS = re.compile(r"[01]{2,}", re.ASCII)
 _FLAGS = {"true": 1.0, "false": 0.0, "yes": 1.0, "no": 0.0, "t": 1.0, "f": 0.0, "y": 1.0, "n": 0.0}
 MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "?"}
 """Texts that stand for a value that is missing."""
 _INFINITE = {
-    "inf": np.inf,
-    "+inf": np.inf,
-    "-inf": -np.inf,
-    "infinity": np.inf,
-    "-infinity": -np.inf,
+    f"{sign}{word}": -np.inf if sign == "-" else np.inf
+    for sign in ("", "+", "-")
+    for word in ("inf", "infinity", "1.#inf", "1.#inf00")
 }
+_UNSEEN = dict.fromkeys(map(ord, "\u200b\u200c\u200d\u200e\u200f\u2060\ufeff"))
+_SIGNS = {ord("\u2212"): "-", ord("\u066b"): "."}  # of mathematics and of Arabic
+_EXPONENT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))d([-+]?\d+)", re.IGNORECASE | re.ASCII)
+_BASED = re.compile(r"[-+]?0(?:x[0-9a-f]+|o[0-7]+|b[01]+)", re.IGNORECASE | re.ASCII)
+_GROUPED = re.compile(r"[-+]?\d{1,3}(?:['\u2019 \u00a0\u202f]\d{3})+(?:\.\d+)?", re.ASCII)
+_UNDERSCORES = re.compile(r"[-+]?\d+(?:_\d+)+", re.ASCII)
+_UNDEFINED = re.compile(r"[-+]?(?:1\.#(?:ind|qnan|snan)\w*|nan\(\w*\))", re.IGNORECASE)
+
+
+def _in_ascii(text: str) -> str:
+    """A text with the digits 0 to 9 and the sign - in place of those of other scripts."""
+    if text.isascii():
+        return text
+    text = text.translate(_UNSEEN).translate(_SIGNS)
+    return "".join(str(unicodedata.decimal(c, c)) for c in text)
+
+
+_SPELLINGS: tuple[tuple[str, re.Pattern[str], Callable[[str], str]], ...] = (
+    ("numbers of base 16, 8 or 2", _BASED, lambda text: str(int(text, 0))),
+    ("numbers with the exponent D", _EXPONENT, lambda text: _EXPONENT.sub(r"\1e\2", text)),
+    ("digits in groups", _GROUPED, lambda text: re.sub(r"['\u2019 \u00a0\u202f]", "", text)),
+    ("digits in groups", _UNDERSCORES, lambda text: text.replace("_", "")),
+    ("nan is missing", _UNDEFINED, lambda text: "nan"),
+)
+"""Spellings of numbers: what a note calls them, how they look, and the same as plain numbers."""
 
 
 def is_value(text: str) -> bool:
@@ -64,6 +88,8 @@ def column_of(name: str, texts: list[str], place: Any, where: str, notes: list[s
         lowered = text.lower()
         if _NUMBER.fullmatch(text):
             values[i] = float(text)
+            if np.isinf(values[i]):
+                raise LogError(f"{where}: {place(i)}: {name}: {text:.40} is beyond 1e15: scale it")
         elif lowered in _FLAGS:
             values[i] = _FLAGS[lowered]
             words.append(i) if len(text) == 1 else None
@@ -86,19 +112,46 @@ def column_of(name: str, texts: list[str], place: Any, where: str, notes: list[s
 
 
 def _plainer(name: str, texts: list[str], notes: list[str]) -> list[str]:
-    """Numbers with one unit, or of base 16, as plain ones."""
-    some = [text for text in texts if not is_value(text)]
-    if len(some) < sum(text.lower() not in MISSING for text in texts):
+    """Numbers with a unit, or in one of the spellings, as plain ones."""
+    there = sum(text.lower() not in MISSING for text in texts)
+    some = [text for text in texts if not _is_plain(text)]
+    if not some or not there:
         return texts
     measures = [_MEASURE.fullmatch(text) for text in some]
     units = {match[2] for match in measures if match}
-    if some and all(measures) and len(units) == 1:
+    if len(some) == there and all(measures) and len(units) == 1:
         notes.append(f"{name}: numbers of the unit {units.pop()}")
         return [m[1] if (m := _MEASURE.fullmatch(text)) else text for text in texts]
-    if some and all(map(_HEX.fullmatch, some)):
-        notes.append(f"{name}: numbers of base 16")
-        return [str(int(text, 16)) if text in some else text for text in texts]
-    return texts
+    plain: dict[str, str] = {}
+    used: dict[str, str] = {}
+    for text in dict.fromkeys(some):
+        ascii_text = _in_ascii(text)
+        label, made = _spelled(ascii_text)
+        if not _is_plain(made):
+            return texts
+        plain[text] = made
+        used.setdefault(label or "digits or signs beyond ASCII", text)
+    if list(used) == ["digits in groups"] and len(some) == there and _are_places(some):
+        return texts
+    notes.append(f"{name}: {', '.join(f'{label} ({text!r})' for label, text in used.items())}")
+    return [plain.get(text, text) for text in texts]
+
+
+def _is_plain(text: str) -> bool:
+    return is_value(text) or text.lower() in _INFINITE
+
+
+def _spelled(text: str) -> tuple[str, str]:
+    """The spelling of a number, and the plain number; the text itself if it has none."""
+    for label, pattern, made in _SPELLINGS:
+        if pattern.fullmatch(text):
+            return label, made(text)
+    return "", text
+
+
+def _are_places(texts: list[str]) -> bool:
+    """Whether texts such as 1_0 are rows and columns, and not thousands: then they are words."""
+    return not all(re.fullmatch(r"[-+]?\d{1,3}([^\d]\d{3})+(\.\d+)?", text) for text in texts)
 
 
 def _arrays(name: str, texts: list[str], place: Any, where: str) -> Array:
