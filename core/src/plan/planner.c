@@ -10,31 +10,64 @@
 
 /* ------------------------------------------------------------------ memory */
 
-static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_config *config, uint32_t d) {
-    (void)rlvc_arena_carve(arena, 1, sizeof *planner);
-    rlvc_tree_carve(&planner->tree, arena, RLVC_PLANNER_LEAVES_MAX, RLVC_THRESHOLDS_FEATURE_BYTES);
-    planner->tree_action = rlvc_arena_carve(arena, RLVC_PLANNER_LEAVES_MAX, 1);
-    rlvc_experience_carve(&planner->experience, arena, d, config->capacity);
+/* A part of the planner that holds arrays; while only counting it stands in the planner's place. */
+typedef union part {
+    rlvc_tree tree;
+    rlvc_experience experience;
+    rlvc_dynamics model;
+    rlvc_dynamics_fit_cursor fit;
+    rlvc_archive archive;
+} part;
+
+/* Carves the arrays that are the planner's own. Without one, only counts. */
+static void carve_own(rlvc_planner *planner, rlvc_arena *arena, const rlvc_config *config,
+                      uint32_t d) {
+    uint32_t cells_bytes = rlvc_cells_pairs(d) * RLVC_CELLS_BYTES;
+    uint8_t *action = rlvc_arena_carve(arena, RLVC_PLANNER_LEAVES_MAX, 1);
+    uint32_t *row = rlvc_arena_carve(arena, config->sample, sizeof *row);
+    float *start = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
+    float *common = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
+    float *search_start = rlvc_arena_carve(arena, RLVC_SEARCH_STARTS * d, sizeof(float));
+    float *now = rlvc_arena_carve(arena, d, sizeof(float));
+    float *promised = rlvc_arena_carve(arena, d, sizeof(float));
+    float *searched = rlvc_arena_carve(arena, d, sizeof(float));
+    uint8_t *cells = rlvc_arena_carve(arena, cells_bytes, 1);
+    uint8_t *fresh = rlvc_arena_carve(arena, cells_bytes, 1);
+    if (!planner)
+        return;
+    planner->tree_action = action;
     planner->sample.room = config->sample;
-    planner->sample.row = rlvc_arena_carve(arena, config->sample, sizeof *planner->sample.row);
+    planner->sample.row = row;
+    planner->start = start;
+    planner->common = common;
+    planner->search_start = search_start;
+    planner->now = now;
+    planner->planning.rollout.s = promised;
+    planner->planning.search.rollout.s = searched;
+    planner->cells_bytes = cells_bytes;
+    planner->cells = cells;
+    planner->fresh = fresh;
+}
+
+/* Carves a planner, or only counts if that is null: to ask for its size takes no planner on the
+ * stack, which would be the most that a controller's stack ever holds. */
+static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_config *config, uint32_t d) {
+    part spare;
+    uint32_t actions = config->actions, leaves = config->model_leaves;
+    (void)rlvc_arena_carve(arena, 1, sizeof *planner);
+    rlvc_tree_carve(planner ? &planner->tree : &spare.tree, arena, RLVC_PLANNER_LEAVES_MAX,
+                    RLVC_THRESHOLDS_FEATURE_BYTES);
+    rlvc_experience_carve(planner ? &planner->experience : &spare.experience, arena, d,
+                          config->capacity);
     for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++)
-        rlvc_dynamics_carve(planner->model + k, arena, d, config->actions, config->model_leaves);
-    rlvc_dynamics_fit_carve(&planner->planning.fit, arena, d, config->actions,
-                            config->model_leaves);
-    rlvc_archive_carve(&planner->archive, arena, d);
-    planner->start = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
-    planner->common = rlvc_arena_carve(arena, RLVC_PLANNER_STARTS * d, sizeof(float));
-    planner->search_start = rlvc_arena_carve(arena, RLVC_SEARCH_STARTS * d, sizeof(float));
-    planner->now = rlvc_arena_carve(arena, d, sizeof(float));
-    planner->planning.rollout.s = rlvc_arena_carve(arena, d, sizeof(float));
-    planner->planning.search.rollout.s = rlvc_arena_carve(arena, d, sizeof(float));
-    planner->cells_bytes = rlvc_cells_pairs(d) * RLVC_CELLS_BYTES;
-    planner->cells = rlvc_arena_carve(arena, planner->cells_bytes, 1);
-    planner->fresh = rlvc_arena_carve(arena, planner->cells_bytes, 1);
+        rlvc_dynamics_carve(planner ? planner->model + k : &spare.model, arena, d, actions, leaves);
+    rlvc_dynamics_fit_carve(planner ? &planner->planning.fit : &spare.fit, arena, d, actions,
+                            leaves);
+    rlvc_archive_carve(planner ? &planner->archive : &spare.archive, arena, d);
+    carve_own(planner, arena, config, d);
 }
 
 rlvc_status rlvc_planner_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
-    rlvc_planner planner;
     rlvc_arena arena = {NULL, 0};
     if (!bytes)
         return RLVC_E_NULL;
@@ -42,7 +75,7 @@ rlvc_status rlvc_planner_size(const rlvc_config *config, const rlvc_domain *doma
     rlvc_status status = rlvc_config_status(config, domain);
     if (status != RLVC_OK)
         return status;
-    carve(&planner, &arena, config, rlvc_planner_components(domain));
+    carve(NULL, &arena, config, rlvc_planner_components(domain));
     *bytes = (size_t)arena.used;
     return RLVC_OK;
 }
