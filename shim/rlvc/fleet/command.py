@@ -8,7 +8,8 @@ import sys
 from typing import Any
 
 from .convert import FILE_ROWS, convert, export
-from .learn import FleetRun, learn_from
+from .learn import learn_from
+from .run import FleetRun
 
 
 def add(commands: Any) -> None:
@@ -46,10 +47,17 @@ def _add_learn(verbs: Any) -> None:
     learn = verbs.add_parser("learn", help="learn, and print the tree")
     option = learn.add_argument
     option("source", metavar="SOURCE", nargs="+", help="files, folders, addresses or data sets")
+    option("--method", choices=["classes", "planner"], default="classes",
+        help="of bits by counts, or of real numbers by a sample (default: %(default)s)")  # fmt: skip
     option("--cluster", metavar="ADDRESS", help="ray, ray://..., dask, tcp://... (default: none)")
     option("--workers", type=int, metavar="N", help="tasks at a time of a cluster on this machine")
     option("--checkpoint", metavar="FILE", help="save to after each pass, and go on from")
-    option("--sample", type=int, metavar="N", help="interactions to guess features from")
+    option(
+        "--sample",
+        type=int,
+        metavar="N",
+        help="interactions to guess features from, or a planner's",
+    )
     option("--reward-bits", type=int, metavar="N", help="tell rewards apart by N bits")
     option("--reward-grid", type=float, metavar="X", help="tell rewards apart on a grid")
     option("--skip-broken", action="store_true", help="leave out row groups that are broken")
@@ -64,8 +72,8 @@ def _add_learn(verbs: Any) -> None:
 
 
 _OPTIONS = (
-    "cluster", "workers", "checkpoint", "sample", "reward_bits", "reward_grid", "actions", "discount",
-    "tolerance", "capacity",
+    "method", "cluster", "workers", "checkpoint", "sample", "reward_bits", "reward_grid", "actions",
+    "discount", "tolerance", "capacity",
 )  # fmt: skip
 
 
@@ -97,4 +105,9 @@ def run(parsed: argparse.Namespace) -> FleetRun | None:
     )
     for skipped in made.report.skipped:
         print(f"rlvc: left out: {skipped}", file=sys.stderr)
+    if made.report.lost:
+        print(
+            f"rlvc: left out: {made.report.lost} interactions, as what came next is not in the log",
+            file=sys.stderr,
+        )
     return made

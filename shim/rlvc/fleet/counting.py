@@ -63,8 +63,8 @@ class Seen:
     ----------
     rows, bytes : int
     lost : int
-        Interactions of LeRobot data sets of which nobody knows what came next: the last of episodes
-        that are cut short.
+        Interactions of tables of which nobody knows what came next: as the last of an episode of
+        LeRobot that is cut short.
     skipped : list of str
         What was left out, and why.
     sample : Sample or None
@@ -111,6 +111,10 @@ class Counting:
     skip: bool = False
     keep: int = 0
 
+    def nothing(self) -> Table:
+        """Return counts of nothing."""
+        return Table(self.question, self.memory)
+
     def into(self, table: Table, piece: Piece, seen: Seen) -> None:
         """Count a piece into a table.
 
@@ -137,7 +141,7 @@ class Counting:
                     block = dataclasses.replace(block, keys=self.rounding.keys(block.rewards))
                 table.count(block, where)
                 seen.rows += len(block)
-                seen.lost += piece.rows - len(block) if piece.kind == "lerobot" else 0
+                seen.lost += piece.rows - len(block) if piece.kind == "table" else 0
                 if seen.sample is not None:
                     seen.sample = seen.sample.with_more(block.percepts)
             except LogError as error:
@@ -167,7 +171,7 @@ class Counting:
             Hears of the interactions of each piece that is done.
         """
         sample = empty(-(-self.question.features // 8), self.keep) if self.keep else None
-        table, seen = Table(self.question, self.memory), Seen(sample=sample)
+        table, seen = self.nothing(), Seen(sample=sample)
         for piece in pieces:
             before = seen.rows
             self.into(table, piece, seen)

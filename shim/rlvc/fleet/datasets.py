@@ -53,8 +53,8 @@ def files_of_lerobot(path: str) -> list[str]:
     return files_below(f"{path.rstrip('/')}/data", (".parquet",))
 
 
-def from_lerobot(path: str) -> Log:
-    """Read a file of a LeRobot data set: its columns of numbers and of equally long lists of them.
+def from_table(path: str) -> Log:
+    """Read a Parquet file at once: its columns of numbers and of equally long lists of them.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who counts: this process, Ray or Dask. Each engine adds up the counts of all pieces.
+"""Who counts, or draws a sample: this process, Ray or Dask. Each engine adds up the parts of all pieces.
 
 Tables add up in any order, so that no engine needs to keep one, and a task that is done again, since its
 worker was lost, changes nothing. Retries are the engine's. Its ports run what they are sent: they belong
@@ -13,10 +13,8 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
-from ..counts.part import Part
-from ..counts.table import Table
 from ..errors import ConfigError
-from .counting import Counting, Seen
+from .counting import Seen
 from .sources import Piece
 
 _TASKS = 4  # for each worker, at most: enough for the slow and the fast to end together
@@ -25,13 +23,25 @@ _FAN_IN = 16  # parts that are added up at once
 _RETRIES = 4  # of a task whose worker was lost
 
 Note = Callable[[int], None]
-Counted = tuple[Part, Seen]
+Counted = tuple[Any, Seen]  # the result of a job, and what was read
+
+
+class Job(Protocol):
+    """What a pass makes of pieces: counts, or a sample."""
+
+    def pieces(self, pieces: Sequence[Piece], note: Note | None = None) -> Counted:
+        """Return what some pieces come to; `note` hears how many more interactions are done."""
+        ...
+
+    def nothing(self) -> Any:
+        """Return what none come to: its ``add(part)`` adds, in any order, and ``part()`` is the sum."""
+        ...
 
 
 class Engine(Protocol):
     """What all engines do."""
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
+    def total(self, job: Job, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces; `note` hears how many more interactions are counted."""
         ...
 
@@ -43,34 +53,34 @@ class Engine(Protocol):
 class InProcess:
     """Counts here, a piece after another, into one table."""
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
+    def total(self, job: Job, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces."""
-        return counting.pieces(pieces, note)
+        return job.pieces(pieces, note)
 
     def close(self) -> None:
         """Nothing to let go of."""
 
 
-def count(counting: Counting, pieces: Sequence[Piece]) -> Counted:
+def count(job: Job, pieces: Sequence[Piece]) -> Counted:
     """Count some pieces: the task of an engine.
 
     Parameters
     ----------
-    counting : Counting
+    job : Job
     pieces : sequence of Piece
     """
-    return counting.pieces(pieces)
+    return job.pieces(pieces)
 
 
-def add(counting: Counting, *parts: Counted) -> Counted:
+def add(job: Job, *parts: Counted) -> Counted:
     """Add up parts: the other task.
 
     Parameters
     ----------
-    counting : Counting
-    *parts : tuple of Part and Seen
+    job : Job
+    *parts : tuple
     """
-    total = _Sum(counting)
+    total = _Sum(job)
     for part in parts:
         total.add(part)
     return total.made()
@@ -79,16 +89,16 @@ def add(counting: Counting, *parts: Counted) -> Counted:
 class _Sum:
     """Adds up parts as they come: the same in whatever order."""
 
-    def __init__(self, counting: Counting) -> None:
-        self._table = Table(counting.question, counting.memory)
+    def __init__(self, job: Job) -> None:
+        self._total = job.nothing()
         self._seen = Seen()
 
     def add(self, part: Counted) -> None:
-        self._table.add(part[0])
+        self._total.add(part[0])
         self._seen += part[1]
 
     def made(self) -> Counted:
-        return self._table.part(), self._seen
+        return self._total.part(), self._seen
 
 
 def tasks_of(pieces: Sequence[Piece], workers: int) -> list[tuple[Piece, ...]]:
@@ -152,11 +162,11 @@ class Ray:
         elif self._started:
             ray.init(address, **quiet)
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
+    def total(self, job: Job, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces."""
         ray = self._ray
         counter, adder = (ray.remote(max_retries=_RETRIES)(task) for task in (count, add))
-        asked = ray.put(counting)
+        asked = ray.put(job)
         tasks = tasks_of(pieces, int(ray.cluster_resources().get("CPU", 1)))
         parts = [counter.remote(asked, task) for task in tasks]
         rows = {part: _rows(task) for part, task in zip(parts, tasks, strict=True)}
@@ -164,7 +174,7 @@ class Ray:
         while len(parts) > _FAN_IN:
             parts = [adder.remote(asked, *some) for some in _in_groups(parts)]
             waiting += parts
-        last, total = set(parts), _Sum(counting)
+        last, total = set(parts), _Sum(job)
         try:
             while waiting:
                 ready, waiting = ray.wait(waiting, fetch_local=False)
@@ -214,16 +224,16 @@ class Dask:
             )
         self._client: Any = library.Client(self._cluster or address)
 
-    def total(self, counting: Counting, pieces: Sequence[Piece], note: Note) -> Counted:
+    def total(self, job: Job, pieces: Sequence[Piece], note: Note) -> Counted:
         """Return the counts of all pieces."""
         tasks = tasks_of(pieces, sum(self._client.nthreads().values()))
-        parts = [self._submit(count, counting, task) for task in tasks]
+        parts = [self._submit(count, job, task) for task in tasks]
         rows = {part.key: _rows(task) for part, task in zip(parts, tasks, strict=True)}
         done = self._as_completed(parts)
         while len(parts) > _FAN_IN:
-            parts = [self._submit(add, counting, *some) for some in _in_groups(parts)]
+            parts = [self._submit(add, job, *some) for some in _in_groups(parts)]
             done.update(parts)
-        last, total = {part.key for part in parts}, _Sum(counting)
+        last, total = {part.key for part in parts}, _Sum(job)
         del parts  # workers keep those that are needed
         for part in done:
             if part.key in last or part.status == "error":

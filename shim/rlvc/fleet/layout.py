@@ -36,6 +36,7 @@ def arrow() -> Any:
     """Import pyarrow with its Parquet module, or raise ImportError with what to install."""
     try:
         import pyarrow
+        import pyarrow.compute
         import pyarrow.fs
         import pyarrow.parquet
     except ImportError:

@@ -71,6 +71,21 @@ def columns_of_log(log: Log, encoder: Any = None, space: Any = None) -> tuple[Co
     return columns, bits, encoder
 
 
+def reals_of_log(log: Log) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], Any]:
+    """Return the observations before and after each interaction as real numbers, and their encoder.
+
+    Parameters
+    ----------
+    log : Log
+    """
+    if log.record_bytes:
+        raise LogError(f"{log.where}: percepts of bits: a planner needs real numbers")
+    domain, encoder, before, after = encoded(log, None, None, 0)
+    if isinstance(domain, Bits):
+        raise LogError(f"{log.where}: observations of bits: a planner needs real numbers")
+    return before, after, encoder
+
+
 def _packed(log: Log, values: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
     """Numbers that are 0 and 1 as bits."""
     if not ((values == 0) | (values == 1)).all():

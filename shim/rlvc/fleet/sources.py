@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ from ..logs.controller_log import is_records
 from ..logs.log import Log
 from . import columns as foreign
 from . import datasets, layout
-from .logs import columns_of_log, numbered
+from .logs import columns_of_log, numbered, reals_of_log
 from .places import files_below, parquet
 
 _GROUPS = 4  # row groups in a piece, about a million interactions
@@ -36,7 +36,8 @@ class Piece:
     rows, bytes : int
         Interactions and bytes on disk; 0: unknown.
     kind : str
-        ``"groups"``, ``"log"``, ``"lerobot"`` or ``"minari"``: how it is read.
+        How it is read: ``"groups"`` one by one, or at once: a ``"table"`` in Parquet, a ``"log"``, or
+        the episodes of ``"minari"``.
     """
 
     path: str
@@ -86,17 +87,39 @@ def _facts(kind: Any, path: str) -> tuple[int, int]:
     return foreign.bits_of(kind, path), 0
 
 
-def _whole_log(path: str) -> Source:
+def _made(pieces: Sequence[Piece], log: Log, real: bool, actions: int) -> Source:
+    """Return a source, from what its first log tells."""
+    if real:
+        encoder = reals_of_log(log)[2]
+        bits = 0
+    else:
+        _, bits, encoder = columns_of_log(log)
+    return Source(tuple(pieces), bits, actions, encoder)
+
+
+def _of_log(path: str, real: bool) -> Source:
     log = numbered(read(path))
-    _, bits, encoder = columns_of_log(log)
     piece = Piece(path, rows=len(log), bytes=Path(path).stat().st_size, kind="log")
-    return Source((piece,), bits, log.known.start + log.known.count, encoder)
+    return _made((piece,), log, real, log.known.start + log.known.count)
+
+
+def _of_tables(files: Sequence[str], real: bool) -> Source:
+    """Return what Parquet files that are read at once hold; the actions are known of a single one."""
+    pieces = []
+    for name in files:
+        with parquet(name) as file:
+            if "percept" in file.schema_arrow.names:
+                raise LogError(f"{name}: percepts of bits: a planner needs real numbers")
+            meta = file.metadata
+            size = sum(meta.row_group(i).total_byte_size for i in range(meta.num_row_groups))
+            pieces.append(Piece(name, (), meta.num_rows, size, "table"))
+    log = numbered(datasets.from_table(files[0]))
+    actions = log.known.start + log.known.count if len(files) == 1 else 0
+    return _made(pieces, log, real, actions)
 
 
 def _of_file(path: str) -> Source:
-    """Return what a file holds."""
-    if _is_whole(path):
-        return _whole_log(path)
+    """Return what a file of row groups holds."""
     with parquet(path) as file:
         bits, actions = _facts(file.schema_arrow, path)
         meta = file.metadata
@@ -111,52 +134,45 @@ def _of_file(path: str) -> Source:
     return Source(tuple(pieces), bits, actions)
 
 
-def _of_lerobot(path: str) -> Source:
-    """Return what a LeRobot data set holds; its actions are known if it is of one file."""
-    files, pieces = datasets.files_of_lerobot(path), []
-    for name in files:
-        with parquet(name) as file:
-            meta = file.metadata
-            size = sum(meta.row_group(i).total_byte_size for i in range(meta.num_row_groups))
-            pieces.append(Piece(name, (), meta.num_rows, size, "lerobot"))
-    log = numbered(datasets.from_lerobot(files[0]))
-    _, bits, encoder = columns_of_log(log)
-    actions = log.known.start + log.known.count if len(files) == 1 else 0
-    return Source(tuple(pieces), bits, actions, encoder)
-
-
-def _of_minari(path: str, dataset: Any) -> Source:
+def _of_minari(path: str, dataset: Any, real: bool) -> Source:
     """Return what a Minari data set holds."""
     cuts = datasets.episodes_of(dataset)
-    pieces = tuple(Piece(path, groups, rows, 0, "minari") for groups, rows in cuts)
+    pieces = [Piece(path, groups, rows, 0, "minari") for groups, rows in cuts]
     if not pieces:
         raise LogError(f"{path}: there is no interaction")
     log = datasets.read_episodes(path, pieces[0].groups)
-    _, bits, encoder = columns_of_log(log)
-    return Source(pieces, bits, log.known.count, encoder, log.known)
+    return dataclasses.replace(_made(pieces, log, real, log.known.count), known=log.known)
 
 
-def _all_of(given: Any) -> Iterator[tuple[str, Source]]:
+def _all_of(given: Any, real: bool) -> Iterator[tuple[str, Source]]:
     """Yield names, and what each holds."""
     path = str(given)
     if hasattr(given, "iterate_episodes"):
         path = str(given.storage.data_path)
     dataset = given if hasattr(given, "iterate_episodes") else datasets.minari_of(path)
     if dataset is not None:
-        yield path, _of_minari(path, dataset)
-    elif datasets.is_lerobot(path):
-        yield path, _of_lerobot(path)
-    else:
-        yield from ((file, _of_file(file)) for file in files_below(path, (".parquet",), _WHOLE))
+        yield path, _of_minari(path, dataset, real)
+        return
+    if datasets.is_lerobot(path):
+        yield path, _of_tables(datasets.files_of_lerobot(path), real)
+        return
+    files = files_below(path, (".parquet",), _WHOLE)
+    if real and not _is_whole(files[0]):
+        yield path, _of_tables(files, real)
+        return
+    for file in files:
+        yield file, _of_log(file, real) if _is_whole(file) else _of_file(file)
 
 
-def opened(source: Any) -> Source:
+def opened(source: Any, real: bool = False) -> Source:
     """Find the pieces of a log, and check that their files fit together.
 
     Parameters
     ----------
     source : str, Path, minari.MinariDataset or sequence of these
         Files, folders, addresses or data sets.
+    real : bool
+        Whether observations are real numbers, and not bits.
 
     Raises
     ------
@@ -168,7 +184,7 @@ def opened(source: Any) -> Source:
     first: Source | None = None
     named = ""
     for each in given:
-        for name, some in _all_of(each):
+        for name, some in _all_of(each, real):
             first, named = first or some, named or name
             if some.bits != first.bits:
                 raise LogError(f"{name}: {some.bits} bits, but {named} has {first.bits}")
@@ -214,7 +230,7 @@ def blocks(piece: Piece, bits: int) -> Iterator[tuple[str, Columns | LogError]]:
     """
     if piece.kind != "groups":
         try:
-            yield piece.path, _fitting(_read(piece), bits)
+            yield piece.path, _fitting(log_of(piece), bits)
         except LogError as error:
             yield piece.path, error
         return
@@ -235,12 +251,17 @@ def blocks(piece: Piece, bits: int) -> Iterator[tuple[str, Columns | LogError]]:
                 yield where, error
 
 
-def _read(piece: Piece) -> Log:
+def log_of(piece: Piece) -> Log:
+    """Read a piece at once.
+
+    Parameters
+    ----------
+    piece : Piece
+        Not of row groups.
+    """
     if piece.kind == "minari":
         return datasets.read_episodes(piece.path, piece.groups)
-    return numbered(
-        datasets.from_lerobot(piece.path) if piece.kind == "lerobot" else read(piece.path)
-    )
+    return numbered(datasets.from_table(piece.path) if piece.kind == "table" else read(piece.path))
 
 
 def _fitting(log: Log, bits: int) -> Columns:
