@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Shows that the tests can fail: plants faults in a copy of the project (build/seeded), one at a time, runs the
-stage of tools/test that is there to find it, and prints whether it did. Where a stage is a preset of CMake, only
-those of its tests are run that are to find the fault. What is committed is copied, not what is changed here."""
+stage of tools/test that is there to find it, and prints whether it did. Of a stage, only that part is run which is to
+find the fault, where it can be run by itself. What is committed is copied, not what is changed here."""
 
 import argparse
 import pathlib
@@ -21,8 +21,9 @@ class Fault(NamedTuple):
     file: str
     old: str  # found once in the file
     new: str
-    tests: str  # which of a preset's tests are to find it (ctest -R); "": the whole stage is run
+    tests: str  # which of a preset's tests are to find it (ctest -R); "": the whole stage is run, or the part
     found_by: str  # a pattern in what is printed, beside the failure
+    part: str = ""  # the command of the stage that is to find it
 
 
 NEXT = "uint32_t rlvc_rng_next(rlvc_rng *rng) {\n"
@@ -60,19 +61,20 @@ FAULTS = [
     Fault("coverage", "a branch that no test reaches", "core/src/base/rng.c",
           "    rng->state = z ^ (z >> 31);\n",
           "    rng->state = z ^ (z >> 31);\n    if (seed == 0xdeadbeefu)\n        rng->state = 1;\n",
-          "", r"base/rng\.c: missed .*'branches': 1"),
+          "", r"base/rng\.c: missed .*'branches': 1", "tools/coverage"),
     Fault("coverage", "a condition that never decides", "core/src/base/rng.c",
           "    rng->state = z ^ (z >> 31);\n",
           "    rng->state = z ^ (z >> 31);\n    if (seed == 1u && rng->state != 0)\n        rng->state = rng->state + 0u;\n",
-          "", r"not shown to decide: condition 2 of 2"),
+          "", r"not shown to decide: condition 2 of 2", "tools/coverage"),
     Fault("bits", "a product and a sum that clang contracts", "core/src/base/float_math.c",
           '#include "float_math.h"\n',
           '#include "float_math.h"\n\n#ifdef __clang__\n#pragma STDC FP_CONTRACT ON\n#endif\n',
           "", r"run_gridworld-clang-O3 and .* differ"),
     Fault("targets", "a char that holds negative numbers", "core/src/base/float_math.c",
           "rlvc_float_of((uint32_t)(e + 127) << 23)", "rlvc_float_of((uint32_t)((char)e + 127) << 23)",
-          "", r"targets\.\w+ .*Failed"),
-    Fault("targets", "a table that is stale", "core/SIZE.md", "# Size on", "# Sizes on", "", r"core/SIZE\.md is stale"),
+          "", r"targets\.\w+ .*Failed", "tools/targets cortex-m3"),
+    Fault("targets", "a table that is stale", "core/SIZE.md", "# Size on", "# Sizes on", "", r"core/SIZE\.md is stale",
+          "python3 -B tools/check/size.py"),
     Fault("shim", "a struct that Python sees otherwise than C", "shim/rlvc/_native/bindings.py",
           '("min_samples", c.c_uint32)', '("min_samples", c.c_uint64)', "", r"(?i)layout|bindings"),
     Fault("shim", "a byte written beyond an array of numpy's", "shim/native/records.c",
@@ -94,7 +96,7 @@ def plant(fault):
 
 def run(fault):
     """Runs what is to find the fault; what it printed, and whether it passed."""
-    commands = [["tools/test", fault.stage]]
+    commands = [fault.part.split() or ["tools/test", fault.stage]]
     if fault.tests:
         commands = [["cmake", "--preset", fault.stage], ["cmake", "--build", "--preset", fault.stage],
                     ["ctest", "--preset", fault.stage, "--tests-regex", fault.tests]]
