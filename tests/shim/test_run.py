@@ -15,7 +15,7 @@ from test_learning import Line
 import rlvc
 from rlvc import errors
 
-OBSERVATIONS = 10_000
+OBSERVATIONS = 3_000
 
 
 class Guess(gymnasium.Env):
