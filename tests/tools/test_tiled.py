@@ -6,6 +6,7 @@ RLVC_COIL100 names a folder of COIL-100 photographs for the tests that want them
 import json
 import os
 import re
+import signal
 import subprocess
 
 import numpy
@@ -139,6 +140,24 @@ def test_same_seed_same_run(tmp_path):
     for made in one, other:
         del made["milliseconds_a_picture"], made["runs"][0]["seconds"]
     assert one == other
+
+
+def test_an_interrupt_keeps_the_finished_runs(tmp_path):
+    file = tmp_path / "report.json"
+    arguments = [PROGRAM, "tiled", "--maze", "small", "--interactions", "100", "--runs", "1000",
+                 "--json", str(file)]
+    environment = {**os.environ, "LC_ALL": "C"}
+    with subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env=environment) as program:
+        rows = (line for line in program.stdout if re.match(r" *\d+ ", line))
+        next(rows)
+        next(rows)  # two runs are done
+        program.send_signal(signal.SIGINT)
+        _, errors = program.communicate(timeout=300)
+    assert program.returncode == 128 + signal.SIGINT, errors
+    said = re.fullmatch(r"run_gridworld: interrupted after (\d+) of 1000 runs, which were kept\n", errors)
+    made = json.loads(file.read_text())
+    assert 2 <= int(said[1]) == len(made["runs"]) < 1000
 
 
 def test_a_file_an_object(tmp_path, folder):

@@ -2,6 +2,7 @@
 #include "binary.h"
 
 #include "cli/failure.h"
+#include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/screen.h"
 #include "maze/maze_file.h"
@@ -80,8 +81,5 @@ void run_binary(int argc, char **argv) {
     dot.write(runs.front().tree_dot);
     export_c.write(runs.front().compaction.policy_c);
     json.write(make_report(options, maze.get(), runs));
-    if (runs.size() < options.runs) {
-        throw Interrupted(std::to_string(runs.size()) + " of " + std::to_string(options.runs) +
-                          " runs, which were kept");
-    }
+    need_all_runs(runs.size(), options.runs);
 }

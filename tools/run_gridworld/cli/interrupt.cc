@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "interrupt.h"
 
+#include "failure.h"
+
 #include <csignal>
+#include <string>
 
 namespace {
 
@@ -22,4 +25,11 @@ void watch_for_interrupts() {
 
 int interrupt_signal() {
     return came;
+}
+
+void need_all_runs(std::size_t finished, std::size_t wanted) {
+    if (finished < wanted) {
+        throw Interrupted(std::to_string(finished) + " of " + std::to_string(wanted) +
+                          " runs, which were kept");
+    }
 }

@@ -5,9 +5,14 @@
 #ifndef RUN_GRIDWORLD_CLI_INTERRUPT_H
 #define RUN_GRIDWORLD_CLI_INTERRUPT_H
 
+#include <cstddef>
+
 void watch_for_interrupts();
 
 // The signal that came, or 0.
 int interrupt_signal();
+
+// Once everything is written: throws Interrupted if fewer runs were finished than wanted.
+void need_all_runs(std::size_t finished, std::size_t wanted);
 
 #endif

@@ -6,6 +6,7 @@
 #include "tiled.h"
 
 #include "../cli/failure.h"
+#include "../cli/interrupt.h"
 #include "../cli/output_file.h"
 #include "../cli/screen.h"
 #include "../maze/maze_file.h"
@@ -15,6 +16,7 @@
 #include <opencv2/core.hpp>
 
 #include <cstring>
+#include <functional>
 
 namespace {
 
@@ -49,6 +51,27 @@ void show_one(const gridworld_maze &maze, const Gallery &gallery, const TiledRun
     screen.print(describe_tests(gallery, run));
 }
 
+// A row for each run; after Ctrl-C the runs that were finished.
+std::vector<TiledRun> learn_all(const TiledOptions &options, const gridworld_maze &maze,
+                                const Optimum &optimum, Gallery &gallery, Screen &screen,
+                                const std::function<void(const std::string &)> &show) {
+    std::vector<TiledRun> runs;
+    screen.print(runs_table_header());
+    for (uint32_t i = 0; i < options.runs; i++) {
+        try {
+            runs.push_back(learn_tiled(options, maze, optimum, gallery, options.seed + i, show));
+        } catch (const Interrupted &) {
+            if (runs.empty()) {
+                throw;
+            }
+            break;
+        }
+        screen.print(runs_table_row(runs.back()));
+    }
+    screen.print(runs_table_end(runs));
+    return runs;
+}
+
 void learn_and_show(const TiledOptions &options) {
     const TiledMaze maze(options.maze);
     OutputFile json("--json", options.json);
@@ -62,21 +85,18 @@ void learn_and_show(const TiledOptions &options) {
         }
     };
     Gallery gallery(options, find_objects(options, maze.get().free_cells), show);
-    std::vector<TiledRun> runs;
     screen.print("Maze of " + std::to_string(maze.get().free_cells) + " free cells, " +
                  std::to_string(gallery.objects().size()) + " objects, " +
-                 rlvc_descriptor_name(options.descriptor) + " vectors\n" + runs_table_header());
-    for (uint32_t i = 0; i < options.runs; i++) {
-        runs.push_back(learn_tiled(options, maze.get(), optimum, gallery, options.seed + i, show));
-        screen.print(runs_table_row(runs.back()));
-    }
-    screen.print(runs_table_end(runs));
+                 rlvc_descriptor_name(options.descriptor) + " vectors\n");
+    const std::vector<TiledRun> runs =
+        learn_all(options, maze.get(), optimum, gallery, screen, show);
     if (runs.size() == 1) {
         show_one(maze.get(), gallery, runs.front(), screen);
     }
     dot.write(make_dot(gallery, runs.front()));
     snapshot.write(runs.front().snapshot);
     json.write(make_tiled_report(options, maze.get(), gallery, runs));
+    need_all_runs(runs.size(), options.runs);
 }
 
 } // namespace
