@@ -241,6 +241,16 @@ def test_damaged_npz(tmp_path, content):
         rlvc.learn_from(file)
 
 
+def test_what_is_masked_is_missing():
+    given = arrays()
+    hidden = np.ma.masked_array(given["observations"], mask=np.zeros(given["observations"].shape))
+    hidden[3] = np.ma.masked
+    with pytest.warns(errors.LogWarning):
+        log = logs.read({**given, "observations": hidden})
+    assert "1 row is left out, for want of an observation, first index 3" in log.describe()
+    assert len(log) < len(given["actions"])
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

@@ -142,6 +142,8 @@ def _array(values: Any, name: str, where: str) -> Array:
     try:
         if hasattr(values, "to_numpy"):
             values = values.to_numpy()
+        if np.ma.is_masked(values):  # what is masked is missing
+            values = np.ma.filled(np.ma.asarray(values, np.float64), np.nan)
         array = np.asarray(values)
         if array.dtype == object:
             array = _plainer(array)
