@@ -122,6 +122,8 @@ def test_history_and_callbacks():
     assert [record.interactions for record in seen] == [200, 400, 600]
     assert run.history == seen
     assert all(record.episodes > 0 and 0 < record.mean_return <= 1 for record in seen)
+    with pytest.raises(errors.ConfigError, match="EvalCallback is a class: make one"):
+        rlvc.learn(Line(), 10, callback=rlvc.EvalCallback)
 
 
 def test_ctrl_c_leaves_a_usable_run():

@@ -488,6 +488,7 @@ def test_the_default_config_holds_all_interactions():
     ("env", "interactions", "says"),
     [
         (Drift(limit=None), 400, "no episode ended"),
+        (Drift(), 60, "only one episode ended"),
         (Drift(), 100, "too few interactions"),
         (Drift(pays=False), 600, "all episodes had the same return"),
     ],

@@ -245,6 +245,8 @@ def _callbacks(callback: Any) -> list[Callable[[Run], object]]:
     calls = list(callback) if isinstance(callback, list | tuple) else [callback]
     calls = [call for call in calls if call is not None]
     for call in calls:
+        if isinstance(call, type):
+            raise ConfigError(f"callback: {call.__name__} is a class: make one, and pass that")
         if not callable(call):
             raise ConfigError(f"callback: {call!r:.80} is not a function")
     return calls

@@ -49,6 +49,8 @@ _UNSOLVED = {
 
 def _warning(statistics: PlannerStatistics) -> str:
     """Why a planner has learnt nothing; empty if it has learnt something."""
+    if statistics.episodes == 1 and statistics.verdict == "no_difference":
+        return "nothing was learnt: only one episode ended"
     if statistics.episodes > 0 and statistics.fits == 0:
         return "nothing was learnt: too few interactions for a model of the world"
     return _VERDICTS[statistics.verdict]

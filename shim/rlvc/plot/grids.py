@@ -42,7 +42,8 @@ def grid(source: Source, file: str | Path | None = None, env: Any = None, ax: An
     bits = getattr(run.encoder, "names", [])
     if len(getattr(run.encoder, "elements", [])) != 1 or len(bits) != (states - 1).bit_length():
         raise RunError(f"env: the run does not observe the number of one of {states} states")
-    actions = np.asarray(run.predict(np.arange(states))).tolist()
+    chosen = run.indices(run.percepts(np.arange(states)))  # as without masks
+    actions = run.actions.of_many(chosen).tolist()
     if kind == "TaxiEnv":
         figure, axes = axes_of(ax, 8.4, 9.8)
         _taxi(axes, world, actions)
