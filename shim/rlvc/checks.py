@@ -69,6 +69,28 @@ def real(name: str, value: Any, error: type[Error] = ConfigError) -> float:
     return number
 
 
+def listed(name: str, value: Any, of: str, error: type[Error] = ConfigError) -> list[Any]:
+    """Take the elements of a sequence, or of anything else that has some; not of a text.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the error.
+    value : iterable
+    of : str
+        What it should list, for the error.
+    error : type
+        The exception to raise.
+
+    Returns
+    -------
+    list
+    """
+    if isinstance(value, str | bytes) or not isinstance(value, Iterable):
+        raise error(f"{name}: {value!r:.80} is not a list of {of}")
+    return list(value)
+
+
 def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
     """Check a truth value: a bool, 0 or 1, or an array of one of them.
 
@@ -89,6 +111,15 @@ def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
     if isinstance(value, bool | int | float) and value in (0, 1):
         return bool(value)
     raise error(f"{name}: {value!r:.80} is not a truth value: give True or False")
+
+
+def told(error: BaseException) -> str:
+    """Return the kind and the text of an exception, whose text may itself raise one."""
+    kind = type(error).__name__
+    try:
+        return f"{kind}: {error}"
+    except Exception:
+        return kind
 
 
 _ELSEWHERE = {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Loads forged snapshots of a planner. The first two bytes choose what planner the store once held
- * and how much it had lived through; the others change its snapshot (forged_store.h). What is
- * loaded must hold together, and every later call be clean. */
+/* Loads forged snapshots of a planner. The first two bytes choose what planner the store once held,
+ * how much it had lived through, and whether it learns on, which takes ten times as long as all
+ * else; the others change its snapshot (forged_store.h). What is loaded must hold together, and
+ * every later call be clean. */
 #define STORE_BYTES 65536u
 #include "forged_store.h"
 
@@ -10,7 +11,8 @@
 
 #define CONFIGS 4u
 #define LIVES 12u
-#define EXTENT 30u /* interactions that tell one life from the next */
+#define LEARNS_OF 4u /* one of so many learns on */
+#define EXTENT 30u   /* interactions that tell one life from the next */
 
 static uint64_t memory[16384], policy_memory[RLVC_PLANNER_POLICY_BYTES / 8];
 
@@ -46,7 +48,7 @@ static void learn(rlvc_agent *planner) {
     must(progress.done);
 }
 
-static void live(rlvc_agent *planner, uint32_t interactions) {
+static void live(rlvc_agent *planner, uint32_t interactions, int learns) {
     slider world;
     rlvc_rng rng;
     rlvc_rng_seed(&rng, interactions);
@@ -58,7 +60,8 @@ static void live(rlvc_agent *planner, uint32_t interactions) {
         must(rlvc_act(planner, &choice) == RLVC_OK && choice.action < SLIDER_ACTIONS);
         uint8_t end = slider_step(&world, choice.action, &reward);
         must(rlvc_observe(planner, choice, reward, world.s, end) == RLVC_OK);
-        learn(planner);
+        if (learns)
+            learn(planner);
         if (end == RLVC_GOES_ON)
             continue;
         slider_reset(&world, &rng);
@@ -75,7 +78,7 @@ static void save(const rlvc_config *config, uint32_t choice, uint32_t lived) {
         rlvc_agent *planner;
         must(rlvc_agent_init(config, &domain, memory, sizeof memory, &planner) == RLVC_OK);
         if (lived > 0)
-            live(planner, lived * EXTENT);
+            live(planner, lived * EXTENT, 1);
         must(rlvc_save(planner, &store) == RLVC_OK);
         memcpy(kept, bytes_of_store, STORE_BYTES / 2);
     }
@@ -119,7 +122,8 @@ static void ask(rlvc_agent *planner) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (size < 2)
         return 0;
-    uint32_t choice = data[0] % CONFIGS;
+    const uint32_t choice = data[0] % CONFIGS;
+    const int learns = data[1] / LIVES % LEARNS_OF == 0;
     rlvc_config config = config_of(choice);
     rlvc_agent *planner;
     save(&config, choice, data[1] % LIVES);
@@ -132,8 +136,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         return 0;
     must(rlvc_agent_check(planner) == RLVC_OK);
     ask(planner);
-    learn(planner);
-    live(planner, 12);
+    if (learns)
+        learn(planner);
+    live(planner, 12, learns);
     ask(planner);
     must(rlvc_save(planner, &store) == RLVC_OK);
     return 0;

@@ -11,7 +11,7 @@ import numpy as np
 from gymnasium import spaces
 
 from ..checks import whole
-from ..errors import SpaceError
+from ..errors import EnvError, SpaceError
 
 
 class History(gymnasium.Wrapper[Any, Any, Any, Any]):
@@ -32,11 +32,15 @@ class History(gymnasium.Wrapper[Any, Any, Any, Any]):
 
     Raises
     ------
+    EnvError
+        ``env`` is none, or a vector of them.
     SpaceError
         The actions are of another space.
     """
 
     def __init__(self, env: gymnasium.Env[Any, Any], n: int) -> None:
+        if not isinstance(env, gymnasium.Env):
+            raise EnvError(f"env: {type(env).__name__} is not a single environment of Gymnasium")
         super().__init__(env)
         self._n = whole("n", n, 1, 64)
         actions: spaces.Space[Any]

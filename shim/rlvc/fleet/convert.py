@@ -122,7 +122,7 @@ def export(source: str | Path | Sequence[str | Path], file: str | Path) -> int:
     LogError
         A file is broken.
     """
-    if Path(file).suffix != ".npz":
+    if not str(file).endswith(".npz"):
         raise ConfigError(f"file: {file} does not end in .npz")
     found = opened(source)
     parts = []

@@ -18,6 +18,8 @@ def filesystem_of(path: str) -> tuple[Any, str]:
     path : str
     """
     pa = layout.arrow()
+    if "\0" in path:
+        raise LogError(f"{path!r:.80}: not the name of a file")
     if "://" not in path:
         return pa.fs.LocalFileSystem(), path
     try:
@@ -25,13 +27,18 @@ def filesystem_of(path: str) -> tuple[Any, str]:
         return filesystem, within
     except pa.ArrowInvalid:
         pass
+    except OSError as error:
+        raise LogError(f"{path}: cannot be reached: {error}") from error
     try:
         import fsspec
     except ImportError:
         raise ImportError(
             f"{path}: this kind of address needs fsspec: pip install fsspec"
         ) from None
-    found, within = fsspec.core.url_to_fs(path)
+    try:
+        found, within = fsspec.core.url_to_fs(path)
+    except (ImportError, OSError, ValueError) as error:
+        raise LogError(f"{path}: cannot be reached: {error}") from error
     return pa.fs.PyFileSystem(pa.fs.FSSpecHandler(found)), within
 
 
@@ -58,7 +65,7 @@ def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
         if info.type != pa.fs.FileType.Directory:
             raise LogError(f"{path}: no such file or folder")
         below = filesystem.get_file_info(pa.fs.FileSelector(within, recursive=True))
-    except OSError as error:
+    except (OSError, pa.ArrowException) as error:
         raise LogError(f"{path}: cannot be listed: {error}") from error
     names = [entry.path for entry in below if entry.type == pa.fs.FileType.File]
     scheme = path.partition("://")[0] + "://" if "://" in path else ""

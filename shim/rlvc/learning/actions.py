@@ -140,7 +140,8 @@ def actions_of(space: Any, bins: int | Sequence[int] | None = None, hold: int = 
     if 0 in (getattr(space, "shape", None) or ()):
         raise SpaceError(f"{space} has no elements, so that there is nothing to choose")
     hold = whole("hold", hold, 1, HOLD_MAX)
-    if bins is not None and not isinstance(space, spaces.Box):
+    finite = isinstance(space, spaces.Discrete | spaces.MultiDiscrete | spaces.MultiBinary)
+    if bins is not None and finite:
         raise ConfigError(f"bins: {space} is finite already: leave bins out")
     if isinstance(space, spaces.Discrete):
         return Actions(_count(space, int(space.n)), int(space.start), hold=hold)

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import flag, real
+from ..checks import flag, real, told
 from ..errors import EnvError, Error, RewardError
 
 _OLD = (
@@ -144,7 +144,7 @@ def _called(name: str, method: Callable[..., Any], *arguments: Any, **options: A
         raise
     except Exception as error:
         call = f"{name}({', '.join(f'{argument!r:.80}' for argument in arguments)})"
-        fault = f"{type(error).__name__}: {error}"
+        fault = told(error)
         raise EnvError(f"{call} of the environment raised {fault}") from error
 
 

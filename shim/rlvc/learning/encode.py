@@ -25,6 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import listed
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
@@ -179,11 +180,12 @@ class Encoder:
         parts = _parts(space)
         given: list[str | None] = [None] * sum(part.size for part in parts)
         if names is not None:
-            if isinstance(names, str) or len(names) != len(given):
+            words = [] if isinstance(names, str) else listed("names", names, "names")
+            if len(words) != len(given):
                 raise ConfigError(
                     f"names: {names!r:.80}: give a list of {len(given)} names for {space!s:.80}"
                 )
-            given = [str(name) for name in names]
+            given = [str(word) for word in words]
         self._settle(parts, thresholds, given)
 
     def _settle(self, parts: list[Part], thresholds: int, given: list[str | None]) -> None:

@@ -50,7 +50,7 @@ def _percept(run: Run) -> str:
 def _comment(head: str, parts: Any) -> str:
     lines, line = [], f"/* {head}"
     for part in parts:
-        part = part.replace("*/", "* /")
+        part = part.replace("*/", "* /").replace("/*", "/ *")
         if len(line) + len(part) > _WIDTH:
             lines.append(line.rstrip())
             line = " * "

@@ -254,6 +254,8 @@ def _callbacks(callback: Any) -> list[Callable[[Run], object]]:
 
 def _need_same(run: Run, given: list[Any], hold: int) -> None:
     """Raise ConfigError if a run cannot go on in an environment, or is given other settings."""
+    if not isinstance(run, Run):
+        raise ConfigError(f"run: {run!r:.80} is not a run that rlvc.learn returned")
     if any(value is not None for value in given) or hold not in (1, run.actions.hold):
         raise ConfigError("run: it keeps its encoder, actions, method and config: leave them out")
     if isinstance(run.learner, PlannedPolicy):

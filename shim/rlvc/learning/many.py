@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import multiprocessing
+import os
 import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import whole
+from ..checks import listed, told, whole
 from ..errors import ConfigError, EnvError
 from .callbacks import EvalCallback
 from .learn import learn
@@ -53,15 +54,16 @@ class Many:
 
 
 def _made(env: Any) -> Any:
-    if isinstance(env, str):
-        import gymnasium
+    import gymnasium
 
-        return gymnasium.make(env)
-    if not callable(env):
+    if not isinstance(env, str) and not callable(env):
         raise EnvError(
             f"env: {env!s:.80}: give its name, or a function that makes one, as each seed has its own"
         )
-    return env()
+    try:
+        return gymnasium.make(env) if isinstance(env, str) else env()
+    except Exception as error:
+        raise EnvError(f"env: making one raised {told(error)}") from error
 
 
 def _one(job: tuple[Any, int, int, int, int, dict[str, Any]]) -> tuple[Run, list[int], list[float]]:
@@ -113,29 +115,41 @@ def learn_many(
     episodes : int
         Of each evaluation.
     **arguments
-        Of :func:`rlvc.learn`.
+        Of :func:`rlvc.learn`, but for ``seed``, ``callback`` and ``run``.
 
     Returns
     -------
     Many
     """
-    listed = list(range(1, seeds + 1)) if isinstance(seeds, int) else [int(seed) for seed in seeds]
-    if not listed:
-        raise ConfigError("seeds: give at least one")
+    own = [name for name in ("seed", "callback", "run") if name in arguments]
+    if own:
+        raise ConfigError(f"{own[0]}: learn_many gives each run its own: leave it out")
+    chosen = _seeds(seeds)
+    processes = None if processes is None else whole("processes", processes, 1, 10**6)
     points, episodes = whole("points", points, 1, 10**6), whole("episodes", episodes, 1, 10**9)
     interactions = whole("interactions", interactions, 1, 2**53)
-    jobs = [(env, interactions, seed, points, episodes, arguments) for seed in listed]
+    jobs = [(env, interactions, seed, points, episodes, arguments) for seed in chosen]
     if processes == 1:
         done = [_one(job) for job in jobs]
     else:
         # By a fork, scripts and notebooks need no main guard, and env may be a lambda.
         forks = "fork" in multiprocessing.get_all_start_methods() and sys.platform == "linux"
         context = multiprocessing.get_context("fork" if forks else "spawn")
-        with ProcessPoolExecutor(processes, context, _take, (jobs,)) as pool:
+        workers = min(processes or os.cpu_count() or 1, len(jobs))  # all begin at once
+        with ProcessPoolExecutor(workers, context, _take, (jobs,)) as pool:
             done = list(pool.map(_nth, range(len(jobs))))
     grid = np.unique(np.linspace(0, interactions, points + 1)[1:].astype(np.int64))
     returns = np.array([_on_grid(grid, when, values) for _, when, values in done])
-    return Many([run for run, _, _ in done], listed, grid, returns)
+    return Many([run for run, _, _ in done], chosen, grid, returns)
+
+
+def _seeds(seeds: Any) -> list[int]:
+    if isinstance(seeds, int | np.integer):
+        return list(range(1, 1 + whole("seeds", seeds, 1, 10**6)))
+    found = [whole("seeds", seed, 0, 2**63 - 1) for seed in listed("seeds", seeds, "numbers")]
+    if not found:
+        raise ConfigError("seeds: give at least one")
+    return found
 
 
 def _on_grid(grid: Any, when: list[int], values: list[float]) -> npt.NDArray[np.float64]:

@@ -255,7 +255,7 @@ class Part:
             if rows.dtype.kind not in "biufO":
                 raise TypeError
             rows = rows.astype(np.float64)
-        except (TypeError, ValueError):
+        except (OverflowError, TypeError, ValueError):
             raise self._wrong(rows) from None
         bad = np.flatnonzero(np.isnan(rows).any(axis=0))
         if len(bad):

@@ -124,8 +124,13 @@ def _arrays(arrays: Mapping[Any, Any], where: str) -> tuple[dict[str, Array], di
     return values, faults
 
 
+_DEEPEST = 30
+
+
 def _flat(arrays: Mapping[Any, Any], start: str = "") -> Iterator[tuple[str, Any]]:
     """The arrays of dicts in dicts, by names such as observations.x."""
+    if start.count(".") > _DEEPEST:
+        raise LogError(f"log: {start[:60]}: dicts in dicts without an end")
     for key, value in arrays.items():
         name = f"{start}{key}"
         if name.startswith("__"):
@@ -149,8 +154,8 @@ def _array(values: Any, name: str, where: str) -> Array:
             array = _plainer(array)
         elif array.dtype.kind == "U":
             array = _spelled(array)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise LogError(f"{where}: {name}: not an array: {error}") from None
+    except Exception as error:  # also what an object of the caller's raises
+        raise LogError(f"{where}: {name}: not an array: {error}") from error
     if array.ndim == 0:
         packed = ": write it unpacked" if isinstance(values, str | bytes) else ""
         raise LogError(f"{where}: {name}: not an array but {values!r:.80}{packed}")

@@ -227,6 +227,8 @@ def learn_from(
     if log.record_bytes:
         made, before, after = _of_records(log, domain)
         encoder = None
+    elif domain is not None:
+        raise ConfigError("domain: goes with the log of a controller: pass space or encoder instead")
     else:
         made, encoder, before, after = encoded(log, encoder, space, thresholds, names)
     settings = default_config(known.count, len(log), seed, config)

@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
+from ..checks import listed
 from ..errors import ConfigError, LogError
 
 NAMES = {
@@ -228,19 +229,21 @@ def roles_of(
     LogError
         There is no column for actions, rewards or observations, or two for one.
     """
-    listed = list(names)
-    chosen = _checked(given, listed, where)
+    there = list(names)
+    chosen = _checked(given, there, where)
     if columns is not None and "observation" in chosen:
         raise ConfigError("roles: columns= names the observation already")
-    wanted = list(chosen.pop("observation", ()) if columns is None else columns)
+    wanted = chosen.pop("observation", [])
+    if columns is not None:
+        wanted = listed("columns", columns, "names")
     after = chosen.pop("next_observation", [])
     for name in wanted:
-        if name not in listed:
-            raise LogError(f"{where}: no column {name} (present: {', '.join(listed) or 'none'})")
-    plains = dict(zip(listed, _paired(_plains(listed)), strict=True))
+        if name not in there:
+            raise LogError(f"{where}: no column {name} (present: {', '.join(there) or 'none'})")
+    plains = dict(zip(there, _paired(_plains(there)), strict=True))
     actions = chosen.pop("action", [])
     one = {role: found[0] for role, found in chosen.items()}
-    free = [n for n in listed if n not in (*wanted, *after, *actions, *one.values())]
+    free = [n for n in there if n not in (*wanted, *after, *actions, *one.values())]
     taken, more = _by_name(free, plains, set(chosen) | ({"action"} if actions else set()), where)
     one |= {role: found[0] for role, found in taken.items() if role != "action"}
     actions = actions or taken.get("action", [])
@@ -257,7 +260,7 @@ def roles_of(
     named = wanted or [name for name in rest if _is_seen(plains[name])]
     seen = named or [name for name in rest if name not in clocks] or rest
     ignored += [name for name in rest if name not in seen]
-    _need(actions, one, seen, listed, where)
+    _need(actions, one, seen, there, where)
     if after and len(after) != len(seen):
         raise LogError(f"{where}: roles: {len(after)} next observations for {', '.join(seen)}")
     before = list(seen)
@@ -267,18 +270,21 @@ def roles_of(
 
 
 def _checked(
-    given: Mapping[str, Any] | None, listed: list[str], where: str
+    given: Mapping[str, Any] | None, there: list[str], where: str
 ) -> dict[str, list[str]]:
     """The roles by the caller: for each a list of columns that are there."""
     chosen: dict[str, list[str]] = {}
+    if not isinstance(given, Mapping | None):
+        raise ConfigError(f"roles: {given!r:.80}: give a dict such as {{'action': 'steering'}}")
     for role, value in (given or {}).items():
         if role not in _GIVEN:
             raise ConfigError(f"roles: {role!r:.80} is not one of {', '.join(_GIVEN)}")
-        chosen[role] = [value] if isinstance(value, str) else [str(name) for name in value]
+        value = [value] if isinstance(value, str) else listed(f"roles: {role}", value, "names")
+        chosen[role] = [str(name) for name in value]
         for name in chosen[role]:
-            if name not in listed:
+            if name not in there:
                 raise LogError(
-                    f"{where}: roles: no column {name} (present: {', '.join(listed) or 'none'})"
+                    f"{where}: roles: no column {name} (present: {', '.join(there) or 'none'})"
                 )
     return chosen
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _native, files
-from ..checks import whole
+from ..checks import real, whole
 from ..errors import (
     Error,
     MetricError,
@@ -121,6 +121,7 @@ class Metric(Owned):
             two = [native_picture(picture, order) for picture in (before, after)]
             references = (ctypes.byref(native) for native in two)
             call("rlvc_fitter_pair", fitter._handle, *references, _PAIRS.index(how))
+        share = real("share", share, RangeError)
         return cls("rlvc_fitter_fit", fitter._handle, METRICS.index(kind), share)
 
     @classmethod

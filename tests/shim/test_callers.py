@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT
+"""What a caller, an environment or an object of the caller's hands over by mistake is refused by an error of
+the package that names it."""
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium import spaces
+
+import rlvc
+from rlvc import errors
+
+
+class Line(gymnasium.Env):
+    """Eight places in a line; `seen` makes the observation of one."""
+
+    def __init__(self, space=None, actions=None, seen=None):
+        self.observation_space = space or spaces.Discrete(8)
+        self.action_space = actions or spaces.Discrete(2)
+        self.seen = seen or (lambda place: place)
+
+    def reset(self, *, seed=None, options=None):
+        self.place = 0
+        return self.seen(0), {}
+
+    def step(self, action):
+        self.place = min(7, max(0, self.place + 2 * int(action) - 1))
+        return self.seen(self.place), float(self.place == 7), self.place == 7, False, {}
+
+
+def many(**changes):
+    return rlvc.learn_many(Line, 50, **{"seeds": 2, "processes": 1, "episodes": 1, "points": 1, **changes})
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"seeds": ["a"]}, "seeds: 'a' is not a whole number"),
+        ({"seeds": 2.5}, r"seeds: 2\.5 is not a list of numbers"),
+        ({"seeds": 0}, r"seeds: 0 is not in \[1"),
+        ({"seeds": []}, "seeds: give at least one"),
+        ({"seeds": [-1]}, "seeds: -1 is not in"),
+        ({"processes": 0}, "processes: 0 is not in"),
+        ({"processes": 1.5}, r"processes: 1\.5 is not a whole number"),
+        ({"seed": 3}, "seed: learn_many gives each run its own"),
+        ({"callback": None}, "callback: learn_many gives each run its own"),
+        ({"run": None}, "run: learn_many gives each run its own"),
+    ],
+    ids=str,
+)
+def test_many_runs(changes, said):
+    with pytest.raises(errors.ConfigError, match=said):
+        many(**changes)
+
+
+def test_more_processes_than_seeds():
+    """A pool would begin them all."""
+    found = many(seeds=np.int64(2), processes=1_000_000)
+    assert found.seeds == [1, 2]
+
+
+def fails():
+    raise ZeroDivisionError("mine")
+
+
+@pytest.mark.parametrize(
+    "env", ["Nope-v0", "", fails, lambda needed: needed], ids=["none", "empty", "fails", "needs"]
+)
+def test_environments_that_cannot_be_made(env):
+    with pytest.raises(errors.EnvError, match="env: making one raised"):
+        rlvc.learn_many(env, 50, seeds=1, processes=1)
+
+
+@pytest.mark.parametrize("run", [3, "run", rlvc.Agent(3, 2)], ids=["int", "str", "Agent"])
+def test_what_is_no_run(run):
+    with pytest.raises(errors.ConfigError, match=r"run: .* is not a run"):
+        rlvc.learn(Line(), 10, run=run)
+
+
+def test_numbers_beyond_any_float():
+    box = spaces.Box(-1, 1, (2,), np.float32)
+    with pytest.raises(errors.PerceptError, match="not an element of the observation space"):
+        rlvc.learn(Line(box, seen=lambda _place: [10**400, 1]), 10)
+
+
+class Speechless(Exception):
+    def __str__(self):
+        raise ZeroDivisionError
+
+
+def test_an_exception_without_a_text():
+    def seen(_place):
+        raise Speechless
+
+    with pytest.raises(errors.EnvError, match=r"reset\(\) of the environment raised Speechless"):
+        rlvc.learn(Line(seen=seen), 10)
+
+
+@pytest.mark.parametrize("bins", [None, 3])
+@pytest.mark.parametrize("actions", [spaces.Tuple([spaces.Discrete(2)]), spaces.Text(3), "x"], ids=str)
+def test_actions_that_are_not_learnt(actions, bins):
+    with pytest.raises(errors.SpaceError, match="needs a finite set of actions"):
+        rlvc.learn(Line(actions=actions), 10, bins=bins)
+
+
+@pytest.mark.parametrize("env", [None, 7, "CartPole-v1"], ids=repr)
+def test_a_history_of_no_environment(env):
+    with pytest.raises(errors.EnvError, match="not a single environment"):
+        rlvc.History(env, 2)
+
+
+def log(**changes):
+    rng = np.random.default_rng(1)
+    columns = {
+        "observations": rng.integers(0, 2, (60, 4)).astype(bool),
+        "actions": rng.integers(0, 2, 60),
+        "rewards": rng.random(60),
+        "terminated": np.arange(60) % 5 == 4,
+    }
+    return {**columns, **changes}
+
+
+class Hostile:
+    def __array__(self, *_arguments, **_named):
+        raise ZeroDivisionError("mine")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"observations": np.ma.masked_array(np.zeros((60, 2)), True)}, "no interaction"),
+        ({"rewards": Hostile()}, "rewards: not an array: mine"),
+    ],
+    ids=["observations", "hostile"],
+)
+def test_columns_that_are_none(changes, said):
+    with pytest.raises(errors.LogError, match=said):
+        rlvc.learn_from(log(**changes))
+
+
+def test_a_dict_within_itself():
+    within = log()
+    within["observations"] = within
+    with pytest.raises(errors.LogError, match="without an end"):
+        rlvc.learn_from(within)
+
+
+def test_a_mask_that_hides_nothing_is_harmless():
+    plain, rewards = log(), log()["rewards"]
+    masked = log(rewards=np.ma.masked_array(rewards, False))
+    assert rlvc.learn_from(masked).text() == rlvc.learn_from(plain).text()
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"roles": 3}, "roles: 3: give a dict"),
+        ({"roles": {"action": 3}}, "roles: action: 3 is not a list of names"),
+        ({"columns": 3}, "columns: 3 is not a list of names"),
+        ({"names": 3}, "names: 3 is not a list of names"),
+        ({"domain": 4}, "domain: goes with the log of a controller"),
+    ],
+    ids=str,
+)
+def test_what_a_log_is_read_with(changes, said):
+    with pytest.raises(errors.ConfigError, match=said):
+        rlvc.learn_from(log(), **changes)
+
+
+@pytest.mark.parametrize("source", [None, 3, "conv\0", "http://127.0.0.1:9/x.parquet"], ids=repr)
+def test_sources_of_a_fleet(source):
+    from rlvc import fleet
+
+    with pytest.raises(errors.LogError):
+        fleet.learn_from(source, workers=1)
+
+
+@pytest.mark.parametrize("file", [None, 3, ""], ids=repr)
+def test_where_a_fleet_is_exported_to(file, tmp_path):
+    from rlvc import fleet
+
+    with pytest.raises(errors.ConfigError, match=r"does not end in \.npz"):
+        fleet.export(tmp_path, file)
+
+
+def test_names_that_look_like_comments():
+    """What is exported is one comment, whatever the numbers are called."""
+    box = spaces.Box(-1, 1, (2,), np.float32)
+    env = Line(box, seen=lambda place: np.array([place / 8, place % 2], np.float32))
+    text = rlvc.learn(env, 20, names=["*/ int evil; /*", "//*"]).export_c()
+    assert text.count("/*") == text.count("*/")
+    assert "*/ int" not in text
