@@ -299,6 +299,16 @@ def test_spellings_of_numbers(cells, values, said, tmp_path):
     assert said in log.describe()
 
 
+@pytest.mark.parametrize("ahead", ["x_new", "future_x", "x_future", "after_x", "following_x", "x_after"])
+def test_names_of_what_comes_next(ahead, tmp_path):
+    """A column so named is never observed, also where its values do not give it away."""
+    file = tmp_path / "log.csv"
+    file.write_text(f"x,action,reward,{ahead},done\n1,0,0,5,0\n2,1,1,7,1\n", encoding="utf-8")
+    log = logs.read(file)
+    assert list(log.before) == ["x"]
+    assert log.after["x"].tolist() == [5, 7]
+
+
 def test_places_are_words(tmp_path):
     """Where no text is a plain number, 1_0 is a row and a column."""
     file = tmp_path / "log.csv"

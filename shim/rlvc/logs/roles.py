@@ -43,6 +43,7 @@ _SEEN = "obs ob observation observations state states s"
 _AFTER = {"obs2": "obs", "s2": "s", "state2": "state", "sp": "s", "s_": "s", "nextstate": "state",
           "nextobs": "obs"}  # fmt: skip
 _NEXT = re.compile(r"next[_. /](.+)|(.+?)[_. ](?:next|prime|after)|(.+)'")
+_AHEAD = re.compile(r"(?:after|future|following)[_. ](.+)|(.+)[_. ](?:new|future|following)")
 _BEFORE = re.compile(
     r"(?:prev|previous|last|old|from)_(s|state|obs|observation)|(state|obs)_before"
 )
@@ -134,6 +135,9 @@ def _before(name: str, names: Collection[str]) -> str | None:
     match = re.fullmatch(r"(.+?)([_. ])(?:next|prime)([_. ].+)", name)  # obs_next_0
     if match:
         return match[1] + match[3]
+    match = _AHEAD.fullmatch(name)
+    if match and (match[1] or match[2]) in names:
+        return match[1] or match[2]
     rest = re.sub(r"^(new|to)_", "", name)
     pairs = name.startswith("new_") or f"from_{rest}" in names
     return rest if rest != name and pairs and (rest in names or _is_seen(rest)) else None

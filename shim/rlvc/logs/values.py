@@ -16,7 +16,7 @@ from ..errors import LogError
 Array = npt.NDArray[Any]
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE | re.ASCII)
 _MEASURE = re.compile(
-    r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))\s*([^\W\d_x][^\s\d]*|[%°]\S*)"
+    r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))\s*([^\W\d_x][^\s\d]*|[%°€$£¥]\S*)"
 )  # 21.5 C
 _BITS = re.compile(r"[01]{2,}", re.ASCII)
 _FLAGS = {"true": 1.0, "false": 0.0, "yes": 1.0, "no": 0.0, "t": 1.0, "f": 0.0, "y": 1.0, "n": 0.0}
