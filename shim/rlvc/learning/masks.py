@@ -88,13 +88,16 @@ def masks_of(mask: Any, count: int, actions: int) -> npt.NDArray[np.bool_] | Non
         Where no action is allowed, none is forbidden.
     """
     try:
-        masks = np.asarray(mask).reshape(count, -1)
-    except ValueError:  # ragged, or not one for each environment
+        masks = np.asarray(mask)
+    except ValueError:  # ragged
         return None
-    if masks.shape[1] != actions or masks.dtype.kind not in "biuf":
+    if masks.size != count * actions or masks.dtype.kind not in "biuf":
         return None
-    masks = masks.astype(np.bool_)
-    return np.asarray(masks | ~masks.any(axis=1, keepdims=True))
+    masks = masks.reshape(count, actions).astype(np.bool_)
+    some = np.logical_or.reduce(masks, axis=1)
+    if False in some.tolist():
+        masks[~some] = True
+    return masks
 
 
 def at_hand(run: Run, observation: Any, given: Any, count: int) -> npt.NDArray[np.bool_] | None:
