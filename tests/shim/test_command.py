@@ -237,6 +237,24 @@ def test_logs_are_shown_and_converted(tmp_path, capsys):
     assert "5 interactions are left out" in capsys.readouterr().err
 
 
+def test_several_files_of_logs(tmp_path, capsys):
+    """Files are told from environments, and learnt from as one log."""
+    files = []
+    for number in (1, 2):
+        rows = [f"{number},{action},{float(action == number - 1)},1" for action in (0, 1)]
+        file = tmp_path / f"{number}.csv"
+        file.write_text("\n".join(["x,action,reward,done", *50 * rows]) + "\n", encoding="utf-8")
+        files.append(str(file))
+    assert command.main(["learn", *files, "--discount", "0.5"]) == 0
+    assert "2 classes after 200 interactions" in capsys.readouterr().out
+    assert command.main(["learn", files[0]]) == 0
+    assert "1 class after 100 interactions" in capsys.readouterr().out
+    assert command.main(["log", *files]) == 0
+    assert "1.csv and 1 more: 200 interactions" in capsys.readouterr().out
+    assert command.main(["learn", str(tmp_path / "none.csv")]) == 1
+    assert "none.csv: cannot be read" in capsys.readouterr().err
+
+
 def test_roles_and_the_past(tmp_path, capsys):
     (tmp_path / "log.csv").write_text("druck,ventil,lohn,ende\n" + "1,0,0,0\n5,1,1,0\n1,1,1,1\n" * 40, encoding="utf-8")
     log, run = str(tmp_path / "log.csv"), str(tmp_path / "run")
