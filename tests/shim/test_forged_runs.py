@@ -75,6 +75,7 @@ def use(run, env):
     assert run.text() and run._repr_html_()
 
 
+@pytest.mark.filterwarnings("ignore::rlvc.errors.MaskWarning")  # a forged `masked` is believed
 @pytest.mark.parametrize("name", RUNS)
 def test_members_that_no_run_has(name, tmp_path):
     env, how, interactions = RUNS[name]
