@@ -622,9 +622,61 @@ static void test_other_versions(void **state) {
     assert_int_equal(load_into(&config, &store, &other), RLVC_E_DAMAGED);
 }
 
+#define FEW 32u /* first percepts in a snapshot of the first version */
+#define MORE ((RLVC_PLANNER_STARTS - FEW) * 2u)
+
+/* Makes a snapshot of the first version: cuts out the runs of marks. */
+static void make_old(unsigned char *snapshot, const float *mark) {
+    const uint32_t run = MORE * (uint32_t)sizeof *mark;
+    uint32_t bytes = (uint32_t)rlvc_get(snapshot + 12, 4), cuts = 0;
+    for (uint32_t at = HEAD_BYTES; at + run <= bytes; at++) {
+        if (memcmp(snapshot + at, mark, run) != 0)
+            continue;
+        bytes -= run;
+        memmove(snapshot + at, snapshot + at + run, bytes - at);
+        cuts++;
+    }
+    assert_int_equal(cuts, 2);
+    rlvc_put(snapshot + 4, RLVC_PLANNER_SNAPSHOT_VERSION - 1u, 4);
+    rlvc_put(snapshot + 12, bytes, 4);
+    mend(snapshot);
+}
+
+/* What the first version saved is loaded, of a planner that began few episodes or many. */
+static void test_the_first_version(void **state) {
+    (void)state;
+    static const uint32_t played[] = {300, 4000};
+    float mark[MORE];
+    for (uint32_t i = 0; i < MORE; i++)
+        mark[i] = 1234.5f;
+    for (uint32_t i = 0; i < 2u; i++) {
+        rlvc_config config = short_config();
+        rlvc_snapshot_info found;
+        rlvc_store store = empty_store(&first, &config);
+        rlvc_planner *planner = make(&config, memory), *other;
+        player p;
+        start(&p, planner, 5);
+        play(&p, played[i]);
+        assert_int_equal(planner->starts > FEW, i);
+        memcpy(planner->start + FEW * 2u, mark, sizeof mark);
+        memcpy(planner->common + FEW * 2u, mark, sizeof mark);
+        planner->commons = planner->commons < FEW ? planner->commons : FEW;
+        assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
+        make_old(first.byte, mark);
+        assert_int_equal(rlvc_snapshot_peek(&store, &found), RLVC_OK);
+        assert_int_equal(found.version, RLVC_PLANNER_SNAPSHOT_VERSION - 1u);
+        assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
+        memset(planner->start + FEW * 2u, 0, sizeof mark);
+        memset(planner->common + FEW * 2u, 0, sizeof mark);
+        planner->starts = i == 1u ? FEW : planner->starts;
+        assert_same(planner, other);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_goes_on),
+        cmocka_unit_test(test_the_first_version),
         cmocka_unit_test(test_before_the_first_percept),
         cmocka_unit_test(test_learning_that_is_due),
         cmocka_unit_test(test_the_size_is_enough),

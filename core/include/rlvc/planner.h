@@ -50,7 +50,7 @@ extern "C" {
      5u * 2u * (RLVC_PLANNER_TERMS(components, actions) + 1u) *                                    \
          (RLVC_PLANNER_TERMS(components, actions) + 2u) +                                          \
      16u * RLVC_PLANNER_TERMS(components, actions) + 16u * (320u + 196u) +                         \
-     (size_t)(components) * (16u * 24u * 4u + 64u * 4u + 220u) +                                   \
+     (size_t)(components) * (16u * 24u * 4u + 256u * 4u + 348u) +                                  \
      36u * ((size_t)(components) * ((components)-1u) / 2u + 1u))
 
 /* Terms of a linear model of the dynamics: with products of components if they are at most 64. */
@@ -135,8 +135,9 @@ RLVC_API rlvc_status rlvc_planner_stats(const rlvc_agent *agent,
 
 /* Of its snapshots, beside RLVC_SNAPSHOT_VERSION, which is of classes. They hold the ring, the
  * model, the trees that were tried and their returns, and the episode under way, and are made
- * between two steps: rlvc_save returns RLVC_E_BUSY during one. */
-#define RLVC_PLANNER_SNAPSHOT_VERSION 0x10001u
+ * between two steps: rlvc_save returns RLVC_E_BUSY during one. Those of version 0x10001, which hold
+ * fewer first percepts, are loaded, too. */
+#define RLVC_PLANNER_SNAPSHOT_VERSION 0x10002u
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,7 @@
 #include "rlvc/planner.h"
 #include "rlvc/thresholds.h"
 
-#define RLVC_PLANNER_STARTS 32u /* first percepts that are remembered */
+#define RLVC_PLANNER_STARTS 128u /* first percepts that are remembered */
 
 typedef struct rlvc_acting {
     rlvc_small_tree tree;

@@ -14,7 +14,8 @@
 
 enum { FIT, PROMISE, DECIDE, CELLS, EXPLORE, SEARCH, CANDIDATE, DONE };
 
-#define SEARCH_STARTS_FIRST 16u /* first percepts; as many percepts of the ring */
+#define SEARCH_STARTS_FIRST 48u /* first percepts, */
+#define SEARCH_STARTS_RING 16u  /* and percepts of the ring */
 #define EXPLORE_STARTS 4u
 #define EXPLORE_SHARE 0.15f
 #define GROWTH 10u /* a tenth */
@@ -201,7 +202,7 @@ static uint32_t first_starts(rlvc_planner *planner, rlvc_rng *rng, uint32_t most
 
 static uint32_t ring_starts(rlvc_planner *planner, rlvc_rng *rng, uint32_t from) {
     const rlvc_experience *experience = &planner->experience;
-    uint32_t d = planner->components, most = from + SEARCH_STARTS_FIRST;
+    uint32_t d = planner->components, most = from + SEARCH_STARTS_RING;
     for (; from < most; from++) {
         uint32_t row = rlvc_experience_row(experience, rlvc_rng_below(rng, experience->count));
         memcpy(planner->search_start + (size_t)from * d, rlvc_experience_percept(experience, row),

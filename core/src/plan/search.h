@@ -15,7 +15,7 @@
 #include "moves.h"
 #include "rollout.h"
 
-#define RLVC_SEARCH_STARTS 32u
+#define RLVC_SEARCH_STARTS 64u
 
 typedef struct rlvc_search_input {
     rlvc_rollout_input rollout;

@@ -28,6 +28,8 @@ static void pass_config(rlvc_stream *s, uint32_t *components, rlvc_config *confi
     rlvc_stream_u32(s, &config->seed);
 }
 
+#define FIRST_VERSION_STARTS 32u /* first percepts in a snapshot of the first version */
+
 static void pass_floats(rlvc_stream *s, float *number, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         rlvc_stream_float(s, number + i);
@@ -192,16 +194,17 @@ static int pass_acting(rlvc_stream *s, rlvc_acting *acting) {
     return pass_small_tree(s, &acting->tree);
 }
 
-/* All that comes after the config. @return 0 if what was loaded does not fit. */
-static int pass_state(rlvc_stream *s, rlvc_planner *planner) {
+/* All that comes after the config, with room for `starts` first percepts.
+ * @return 0 if what was loaded does not fit. */
+static int pass_state(rlvc_stream *s, rlvc_planner *planner, uint32_t starts) {
     uint32_t components = planner->components;
     pass_counters(s, planner);
     if (!pass_experience(s, &planner->experience) ||
         (planner->fitted > 0 && !pass_models(s, planner)) || !pass_archive(s, &planner->archive) ||
         !pass_acting(s, &planner->acting) || !pass_acting(s, &planner->next))
         return 0;
-    pass_floats(s, planner->start, RLVC_PLANNER_STARTS * components);
-    pass_floats(s, planner->common, RLVC_PLANNER_STARTS * components);
+    pass_floats(s, planner->start, starts * components);
+    pass_floats(s, planner->common, starts * components);
     pass_floats(s, planner->now, components);
     rlvc_stream_bytes(s, planner->cells, planner->cells_bytes);
     return 1;
@@ -243,7 +246,7 @@ rlvc_status rlvc_planner_snapshot_size(const rlvc_config *config, const rlvc_dom
 
 static void pass_planner(rlvc_stream *s, rlvc_planner *planner) {
     pass_config(s, &planner->components, &planner->config);
-    (void)pass_state(s, planner);
+    (void)pass_state(s, planner, RLVC_PLANNER_STARTS);
 }
 
 static rlvc_status save(rlvc_planner *planner, const rlvc_store *store) {
@@ -279,7 +282,7 @@ rlvc_status rlvc_planner_save(rlvc_agent *agent, const rlvc_store *store) {
 rlvc_status rlvc_planner_open_slot(const rlvc_store *store, const rlvc_two_slot *slot,
                                    rlvc_stream *stream, rlvc_snapshot_info *info) {
     uint32_t components = 0;
-    if (slot->version != RLVC_PLANNER_SNAPSHOT_VERSION)
+    if (!rlvc_planner_snapshot_known(slot->version))
         return RLVC_E_VERSION;
     rlvc_stream_load(stream, store, slot);
     pass_config(stream, &components, &info->config);
@@ -288,9 +291,13 @@ rlvc_status rlvc_planner_open_slot(const rlvc_store *store, const rlvc_two_slot 
     return stream->status;
 }
 
-/* Fills a new planner. */
-static rlvc_status load(rlvc_stream *stream, rlvc_planner *planner) {
-    int fits = pass_state(stream, planner);
+/* Fills a new planner. Of the first version's few first percepts all are the newest ones. */
+static rlvc_status load(rlvc_stream *stream, rlvc_planner *planner, uint32_t version) {
+    uint32_t starts =
+        version == RLVC_PLANNER_SNAPSHOT_FIRST ? FIRST_VERSION_STARTS : RLVC_PLANNER_STARTS;
+    int fits = pass_state(stream, planner, starts);
+    if (starts < RLVC_PLANNER_STARTS && planner->starts > starts)
+        planner->starts = starts;
     if (stream->status != RLVC_OK)
         return stream->status;
     if (!fits)
@@ -326,7 +333,7 @@ rlvc_status rlvc_planner_load(const rlvc_config *config, const rlvc_domain *doma
     if (status == RLVC_OK)
         status = rlvc_planner_init(config, domain, memory, bytes, &made);
     if (status == RLVC_OK)
-        status = load(&stream, (rlvc_planner *)(void *)made);
+        status = load(&stream, (rlvc_planner *)(void *)made, slot.version);
     if (status == RLVC_OK)
         *agent = made;
     return status;

@@ -6,6 +6,13 @@
 #include "rlvc/planner.h"
 #include "two_slot.h"
 
+#define RLVC_PLANNER_SNAPSHOT_FIRST 0x10001u
+
+/* Can snapshots of this version be loaded into a planner? O(1). */
+static inline int rlvc_planner_snapshot_known(uint32_t version) {
+    return version == RLVC_PLANNER_SNAPSHOT_VERSION || version == RLVC_PLANNER_SNAPSHOT_FIRST;
+}
+
 /* Opens a planner's snapshot. Its config takes the place of info's, but for what a planner does not
  * look at.
  * @return RLVC_OK; RLVC_E_VERSION; RLVC_E_STORE; RLVC_E_DAMAGED. */

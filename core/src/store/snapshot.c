@@ -403,7 +403,7 @@ rlvc_status rlvc_snapshot_peek(const rlvc_store *store, rlvc_snapshot_info *info
     info->slot = slot.index;
     info->bytes = slot.bytes;
     memset(&info->config, 0, sizeof info->config);
-    if (RLVC_HAS_PLANNER && slot.version == RLVC_PLANNER_SNAPSHOT_VERSION)
+    if (RLVC_HAS_PLANNER && rlvc_planner_snapshot_known(slot.version))
         return rlvc_planner_open_slot(store, &slot, &stream, info);
     return open_slot(store, &slot, &stream, info);
 }
