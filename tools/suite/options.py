@@ -18,6 +18,7 @@ TASKS = {
     "car": "MountainCar-v0",
     "acrobot": "Acrobot-v1",
     "pendulum": "Pendulum-v1 with 3 torques",
+    "lander": "LunarLander-v3",
     "grid": "MiniGrid-Empty-5x5-v0, all of it seen",
     "far": "a maze of 20 x 20 cells with a single, distant reward, 6 distractors",
     "nothing": "nothing to learn: random bits, random rewards; ten runs a seed",

@@ -294,6 +294,11 @@ def pendulum():
     return _classic("pendulum", make, 10000, -250, 16, 0.8)
 
 
+def lander():
+    make = functools.partial(gymnasium.make, "LunarLander-v3")
+    return _classic("lander", make, 50000, 100, 16, 0.5)
+
+
 def grid():
     def make():
         from minigrid.wrappers import FullyObsWrapper, ImgObsWrapper
@@ -373,7 +378,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, large, taxi, cartpole, noise, sensors, car, acrobot, pendulum, grid, far,
+    binary, lake, slippery, large, taxi, cartpole, noise, sensors, car, acrobot, pendulum, lander, grid, far,
     nothing, wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}
