@@ -26,7 +26,7 @@ PLANNER_FLASH_MAX = 48 * 1024  # of a program that learns on numbers on the M4F
 EXAMPLES = {  # name: heading, target, memory at most and stack set aside, a definition, sources
     "firmware": ("Learning the Binary Gridworld", "M3", 32 * 1024, 2048, "FIRMWARE_RETURNS=0",
                  ("main", "robot", "report")),
-    "balance": ("Learning to balance a pole", "M4F", 128 * 1024, 8192, "BALANCE_SHORT=0",
+    "balance": ("Learning to balance a pole", "M4F", 128 * 1024, 4096, "BALANCE_SHORT=0",
                 ("main", "cart_pole", "controller", "report")),
 }
 LEAN = ("-DRLVC_METHODS=1", "-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2", "-DRLVC_DOMAINS=2",
