@@ -38,7 +38,7 @@ function(vcpkg_extract_source_archive result)
 endfunction()
 function(vcpkg_cmake_configure)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" "SOURCE_PATH" "OPTIONS")
-    succeed(${{CMAKE_COMMAND}} -G Ninja -S ${{arg_SOURCE_PATH}} -B {place}/build -DCMAKE_BUILD_TYPE=Release
+    succeed(${{CMAKE_COMMAND}} -G Ninja -S ${{arg_SOURCE_PATH}} -B {place}/build -DCMAKE_BUILD_TYPE=Debug
             -DCMAKE_INSTALL_PREFIX=${{CURRENT_PACKAGES_DIR}} -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS={shared}
             ${{arg_OPTIONS}})
 endfunction()
@@ -94,4 +94,4 @@ def check(archive, folder):
             raise packing.Failed(f"with shared libraries {shared} the port installs {sorted(names)}")
         cmake.consume(folder, f"vcpkg-{shared}", packing.tool("cmake"), cmake.FIND, "rlvc::rlvc",
                       f"-DCMAKE_PREFIX_PATH={packages}")
-    return "its portfile run by CMake, static and shared (vcpkg itself cannot be had)"
+    return "its portfile run by CMake, static and shared, for debugging (vcpkg itself cannot be had)"

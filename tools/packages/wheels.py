@@ -49,8 +49,8 @@ def pack(folder):
 
 
 def build(archive, folder, wheel):
-    """A wheel of the core alone, with its platform's tag. Other tests try what full optimisation makes of it."""
-    defined = ("RLVC_VISION=OFF", "CMAKE_C_FLAGS_RELEASE=-O1 -DNDEBUG", *wheel.settings)
+    """A wheel of the core alone, with its platform's tag. Unoptimised: other tests try the rest."""
+    defined = ("RLVC_VISION=OFF", "CMAKE_C_FLAGS_RELEASE=-O0 -DNDEBUG", *wheel.settings)
     settings = [f"--config-settings=cmake.define.{each}" for each in defined]
     python("pip", "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, *settings, archive,
            env={**os.environ, "CC": packing.tool(wheel.compiler)})
