@@ -52,6 +52,7 @@ static scaled term(float x, uint32_t k) {
     float x_m = rlvc_take_apart(x, ONE_BITS, &x_e);
     scaled t;
     t.m = rlvc_take_apart(first, ONE_BITS, &t.e);
+    //@ loop unroll 128;
     for (uint32_t d = 2u + odd; d <= k; d += 2u) {
         int32_t e;
         t.m = rlvc_take_apart(t.m * (x_m / (float)d), ONE_BITS, &e);
@@ -186,7 +187,7 @@ rlvc_status rlvc_chi2_table(uint32_t a, uint32_t b, uint32_t c, uint32_t d, floa
     }
     /* n (ad - bc)^2 / (rows columns). The products are below 2^60, hence exact; the quotients are
      * within +-1, hence nothing overflows. */
-    int64_t determinant = (int64_t)((uint64_t)a * d) - (int64_t)((uint64_t)b * c);
+    int64_t determinant = (int64_t)((uint64_t)a * d - (uint64_t)b * c);
     float u = (float)determinant / (float)rows;
     float v = (float)determinant / (float)columns;
     *statistic = (float)n * (u * v);

@@ -41,7 +41,8 @@ float rlvc_excess(float p, float q, float difference, float sum) {
 
 /* The same for integers below 2^62. */
 static float cell_gain(int64_t p, int64_t q) {
-    return rlvc_excess((float)p, (float)q, (float)(p - q), (float)(p + q));
+    return rlvc_excess((float)p, (float)q, (float)(p - q),
+                       (float)(int64_t)((uint64_t)p + (uint64_t)q));
 }
 
 #if RLVC_COUNT_BITS == 64
