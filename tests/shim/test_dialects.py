@@ -240,6 +240,8 @@ def test_what_is_lost_is_said():
     [
         ("1,0,0.5,1\n2,1,0.5,1\n", "header=[...], the 4 names"),
         ("x,action,reward,terminated\n0x1G,0,0,1\n1,1,0,1\n", "line 2: x: '0x1G'"),
+        (f"x,action,reward,terminated\n0x{'f' * 9000},0,0,1\n1,1,0,1\n", "line 2: x: '0xfff"),
+        (f"x,action,reward,terminated\n0x{'f' * 200},0,0,1\n", "is beyond 1e15: scale it"),
         ("x,action,reward,terminated\n1e17,0,0,1\n", "line 2: x: 1e+17 is beyond 1e15"),
         ("x,action,reward,terminated\n1e400,0,0,1\n", "line 2: x: 1e400 is beyond 1e15"),
         ("x,action,reward,terminated\n1,0,\1,1\n", "line 2: a control character"),

@@ -30,7 +30,9 @@ _INFINITE = {
 _UNSEEN = dict.fromkeys(map(ord, "\u200b\u200c\u200d\u200e\u200f\u2060\ufeff"))
 _SIGNS = {ord("\u2212"): "-", ord("\u066b"): "."}  # of mathematics and of Arabic
 _EXPONENT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))d([-+]?\d+)", re.IGNORECASE | re.ASCII)
-_BASED = re.compile(r"[-+]?0(?:x[0-9a-f]+|o[0-7]+|b[01]+)", re.IGNORECASE | re.ASCII)
+_BASED = re.compile(  # not of any length, as Python refuses to spell very long ones
+    r"[-+]?0(?:x[0-9a-f]{1,200}|o[0-7]{1,200}|b[01]{1,200})", re.IGNORECASE | re.ASCII
+)
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:['\u2019 \u00a0\u202f]\d{3})+(?:\.\d+)?", re.ASCII)
 _UNDERSCORES = re.compile(r"[-+]?\d+(?:_\d+)+", re.ASCII)
 _UNDEFINED = re.compile(r"[-+]?(?:1\.#(?:ind|qnan|snan)\w*|nan\(\w*\))", re.IGNORECASE)
