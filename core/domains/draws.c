@@ -14,6 +14,7 @@
 
 #include "margin.h"
 #include "nearest.h"
+#include "runs.h"
 
 #include <string.h>
 
@@ -26,39 +27,6 @@
 #define APART_MIN 6.0f /* pixels */
 #define ERROR_MIN 4.0f /* pixels, at the radius tau */
 #define ERROR_SHARE 0.35f
-
-/* ------------------------------------------------------------------ runs of equal targets */
-
-/* A number that looks random (an integer hash by multiplication). */
-static uint32_t scatter(uint32_t x) {
-    x = (x ^ x >> 16) * 0x45d9f3bu;
-    x = (x ^ x >> 16) * 0x45d9f3bu;
-    return x ^ x >> 16;
-}
-
-static int begins_run(const rlvc_samples *samples, uint32_t i) {
-    return i == 0 || samples->sample[i].key != samples->sample[i - 1u].key;
-}
-
-static uint32_t count_runs(const rlvc_samples *samples) {
-    uint32_t runs = 0;
-    for (uint32_t i = 0; i < samples->count; i++)
-        runs += (uint32_t)begins_run(samples, i);
-    return runs;
-}
-
-/* Where run number `run` of samples with equal targets begins and ends. */
-static void find_run(const rlvc_samples *samples, uint32_t run, uint32_t *begin, uint32_t *end) {
-    uint32_t at = 0;
-    for (uint32_t left = run + 1u; left > 0; at++)
-        left -= (uint32_t)begins_run(samples, at);
-    *begin = at - 1u;
-    while (at < samples->count && !begins_run(samples, at))
-        at++;
-    *end = at;
-}
-
-/* ------------------------------------------------------------------ drawing */
 
 /* Makes a pair of point `from` and the first that is far enough from it, from point `to` on,
  * counted round. 0: there is none. */
@@ -91,7 +59,7 @@ static int pick(const rlvc_layout *layout, const void *percept, uint32_t chance,
     const uint32_t from = chance % count;
     made->vector[0] = rlvc_vectors_at(layout->d, percept, from);
     made->scale = 0.0f;
-    return !as_pair || pair_up(layout, percept, from, scatter(chance) % count, made);
+    return !as_pair || pair_up(layout, percept, from, rlvc_scatter(chance) % count, made);
 }
 
 static int is_among(const rlvc_layout *layout, const unsigned char *features, uint32_t count,
@@ -143,13 +111,13 @@ static int draw(const rlvc_layout *layout, const rlvc_samples *samples, uint32_t
     memset(out, 0, layout->feature_bytes);
     memcpy(out, &best.radius, sizeof best.radius);
     for (uint32_t t = 0; t < draws; t++) {
-        const uint32_t chance = scatter(number * RLVC_DESCRIPTORS_DRAWS_MAX + t + 1u);
+        const uint32_t chance = rlvc_scatter(number * RLVC_DESCRIPTORS_DRAWS_MAX + t + 1u);
         const void *percept = rlvc_samples_percept(samples, run[0] + chance % (run[1] - run[0]));
         rlvc_gap found = best;
         rlvc_pattern pattern;
         if (rlvc_vectors_count(percept) > d->points)
             return -1;
-        if (!pick(layout, percept, scatter(chance), number >= d->candidates, &pattern) ||
+        if (!pick(layout, percept, rlvc_scatter(chance), number >= d->candidates, &pattern) ||
             is_among(layout, features, written, &pattern))
             continue;
         if (!(d->margin > 1.0f))
@@ -166,15 +134,14 @@ static int draw(const rlvc_layout *layout, const rlvc_samples *samples, uint32_t
 
 int rlvc_draw_candidates(const rlvc_layout *layout, const rlvc_samples *samples, uint32_t first,
                          uint32_t room, void *features, uint32_t *written) {
-    const uint32_t runs = count_runs(samples), vectors = layout->d->candidates;
+    const uint32_t runs = rlvc_runs_count(samples), vectors = layout->d->candidates;
     uint32_t n = 0;
     for (; n < room && first + n < vectors + layout->pairs; n++) {
         const uint32_t number = first + n;
         const uint32_t i = number < vectors ? number : number - vectors;
         const uint32_t of = number < vectors ? vectors : layout->pairs;
         uint32_t run[2];
-        find_run(samples, runs < of ? i % runs : (uint32_t)((uint64_t)i * runs / of), &run[0],
-                 &run[1]);
+        rlvc_runs_find(samples, runs, i, of, run);
         if (draw(layout, samples, number, run, (unsigned char *)features, n) != 0)
             return -1;
     }

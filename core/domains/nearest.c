@@ -143,12 +143,9 @@ static float nearest_vector(const rlvc_probe *wanted, const void *percept, float
     return least < beyond ? (float)least : limit;
 }
 
-/* From the pattern's vector `which` to the percept's vector i; if that is not below the limit, any
- * number that is not. */
-static float between(const rlvc_probe *wanted, uint32_t which, const void *percept, uint32_t i,
-                     float limit) {
+float rlvc_probe_between(const rlvc_probe *wanted, uint32_t which, const void *vector,
+                         float limit) {
     const rlvc_descriptors *d = wanted->layout->d;
-    const void *vector = rlvc_vectors_at(d, percept, i);
     if (d->form != RLVC_DESCRIPTORS_INT8)
         return between_floats((const float *)vector, (const float *)wanted->pattern.vector[which],
                               d->dimensions, limit);
@@ -175,7 +172,8 @@ static float nearest_second(const rlvc_probe *wanted, const void *percept, uint3
         const float off = j == i ? least : misplacement(wanted, percept, i, j);
         if (!(off < least))
             continue;
-        float worst = between(wanted, 1, percept, j, least);
+        float worst =
+            rlvc_probe_between(wanted, 1, rlvc_vectors_at(wanted->layout->d, percept, j), least);
         worst = worst < first ? first : worst;
         worst = worst < off ? off : worst;
         if (worst < least) {
@@ -191,7 +189,8 @@ static float nearest_pair(const rlvc_probe *wanted, const void *percept, float e
     const uint32_t count = rlvc_vectors_count(percept);
     float least = limit;
     for (uint32_t i = 0; i < count && least >= enough; i++) {
-        const float first = between(wanted, 0, percept, i, least);
+        const float first =
+            rlvc_probe_between(wanted, 0, rlvc_vectors_at(wanted->layout->d, percept, i), least);
         if (!(first < least))
             continue;
         const float worst = nearest_second(wanted, percept, i, first, least, &point[1]);

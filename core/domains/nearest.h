@@ -22,6 +22,10 @@ void rlvc_probe_open(const rlvc_layout *layout, const rlvc_pattern *pattern, rlv
 float rlvc_probe_nearest(const rlvc_probe *wanted, const void *percept, float enough, float limit,
                          uint32_t point[2]);
 
+/* From the pattern's vector `which` to another, squared; if that is not below the limit, any number
+ * that is not. */
+float rlvc_probe_between(const rlvc_probe *wanted, uint32_t which, const void *vector, float limit);
+
 /* The domains' callbacks, given a layout. */
 int rlvc_vectors_exhibits(const rlvc_layout *layout, const void *percept, const void *feature,
                           uint8_t *present);

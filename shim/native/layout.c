@@ -5,6 +5,7 @@
 
 #include "gridworld.h"
 #include "rlvc/agent.h"
+#include "rlvc/bags.h"
 #include "rlvc/bits.h"
 #include "rlvc/chi2.h"
 #include "rlvc/counts.h"
@@ -112,6 +113,18 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_split, log_tests)},
     {FIELD(rlvc_split, score)},
     {FIELD(rlvc_split, log_p)},
+    {SIZE(rlvc_descriptors)},
+    {FIELD(rlvc_descriptors, points)},
+    {FIELD(rlvc_descriptors, dimensions)},
+    {FIELD(rlvc_descriptors, candidates)},
+    {FIELD(rlvc_descriptors, draws)},
+    {FIELD(rlvc_descriptors, radius)},
+    {FIELD(rlvc_descriptors, margin)},
+    {FIELD(rlvc_descriptors, form)},
+    {FIELD(rlvc_descriptors, reserved)},
+    {SIZE(rlvc_bags)},
+    {FIELD(rlvc_bags, vectors)},
+    {FIELD(rlvc_bags, size)},
     {SIZE(rlvc_exact_sum)},
     {FIELD(rlvc_exact_sum, word)},
     {SIZE(rlvc_count_row)},
@@ -138,15 +151,6 @@ static const rlvc_shim_entry layout[] = {
     {FIELD(rlvc_counts, pairs)},
     {FIELD(rlvc_counts, features)},
     {FIELD(rlvc_counts, cell_bits)},
-    {SIZE(rlvc_descriptors)},
-    {FIELD(rlvc_descriptors, points)},
-    {FIELD(rlvc_descriptors, dimensions)},
-    {FIELD(rlvc_descriptors, candidates)},
-    {FIELD(rlvc_descriptors, draws)},
-    {FIELD(rlvc_descriptors, radius)},
-    {FIELD(rlvc_descriptors, margin)},
-    {FIELD(rlvc_descriptors, form)},
-    {FIELD(rlvc_descriptors, reserved)},
     {SIZE(rlvc_export_info)},
     {FIELD(rlvc_export_info, leaves)},
     {FIELD(rlvc_export_info, compact)},

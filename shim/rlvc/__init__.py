@@ -48,6 +48,7 @@ from .agent.results import (
     Split,
     Statistics,
 )
+from .domains.bags import Bags
 from .domains.bits import Bits
 from .domains.descriptors import Descriptors
 from .domains.domain import Domain
@@ -70,6 +71,7 @@ __all__ = [
     "CHOICE",
     "Actions",
     "Agent",
+    "Bags",
     "Batch",
     "Bits",
     "CheckpointCallback",

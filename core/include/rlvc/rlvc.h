@@ -4,6 +4,7 @@
 #define RLVC_RLVC_H
 
 #include "rlvc/agent.h"
+#include "rlvc/bags.h"
 #include "rlvc/bits.h"
 #include "rlvc/chi2.h"
 #include "rlvc/counts.h"

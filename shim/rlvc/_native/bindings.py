@@ -58,6 +58,13 @@ RESIDUAL_ENDLESS = 1e+30
 PRINT_TEXT = 0
 PRINT_DOT = 1
 PRINT_JSON = 2
+DESCRIPTORS_FLOAT = 0
+DESCRIPTORS_INT8 = 1
+DESCRIPTORS_POINTS_MAX = 1000
+DESCRIPTORS_DIMENSIONS_MAX = 256
+DESCRIPTORS_CANDIDATES_MAX = 65535
+DESCRIPTORS_DRAWS_MAX = 64
+BAGS_SIZE_MAX = 32
 BITS_MAX = 1024
 BITS_FEATURE_BYTES = 2
 CHI2_DEGREES_MAX = 255
@@ -66,12 +73,6 @@ COUNTS_FEATURES_MAX = 1024
 CELL_BITS_MAX = 64
 COUNTS_MAX = 281474976710655
 EXACT_SUM_WORDS = 4
-DESCRIPTORS_FLOAT = 0
-DESCRIPTORS_INT8 = 1
-DESCRIPTORS_POINTS_MAX = 1000
-DESCRIPTORS_DIMENSIONS_MAX = 256
-DESCRIPTORS_CANDIDATES_MAX = 65535
-DESCRIPTORS_DRAWS_MAX = 64
 LOG_VERSION = 1
 LOG_END = 0
 LOG_HEADER = 1
@@ -266,6 +267,22 @@ class Split(c.Structure):
 WRITE = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)
 
 
+class Descriptors(c.Structure):
+    """``rlvc_descriptors``."""
+
+    _fields_ = [
+        ("points", c.c_uint32), ("dimensions", c.c_uint32), ("candidates", c.c_uint32),
+        ("draws", c.c_uint32), ("radius", c.c_float), ("margin", c.c_float),
+        ("form", c.c_uint8), ("reserved", c.c_uint8 * 3),
+    ]
+
+
+class Bags(c.Structure):
+    """``rlvc_bags``."""
+
+    _fields_ = [("vectors", Descriptors), ("size", c.c_uint32)]
+
+
 class ExactSum(c.Structure):
     """``rlvc_exact_sum``."""
 
@@ -295,16 +312,6 @@ class Counts(c.Structure):
         ("reward", c.c_void_p), ("feature", c.c_void_p), ("tested", c.c_void_p),
         ("rows", c.c_uint32), ("pairs", c.c_uint32), ("features", c.c_uint32),
         ("cell_bits", c.c_uint32),
-    ]
-
-
-class Descriptors(c.Structure):
-    """``rlvc_descriptors``."""
-
-    _fields_ = [
-        ("points", c.c_uint32), ("dimensions", c.c_uint32), ("candidates", c.c_uint32),
-        ("draws", c.c_uint32), ("radius", c.c_float), ("margin", c.c_float),
-        ("form", c.c_uint8), ("reserved", c.c_uint8 * 3),
     ]
 
 
@@ -633,11 +640,12 @@ STRUCTS: dict[str, type[c.Structure]] = {
     "rlvc_progress": Progress,
     "rlvc_statistics": Statistics,
     "rlvc_split": Split,
+    "rlvc_descriptors": Descriptors,
+    "rlvc_bags": Bags,
     "rlvc_exact_sum": ExactSum,
     "rlvc_count_row": CountRow,
     "rlvc_count_pair": CountPair,
     "rlvc_counts": Counts,
-    "rlvc_descriptors": Descriptors,
     "rlvc_export_info": ExportInfo,
     "rlvc_log_writer": LogWriter,
     "rlvc_log_record": LogRecord,
@@ -695,6 +703,21 @@ CORE: Functions = {
     "rlvc_split_at": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p, c.c_void_p]),
     "rlvc_print": (c.c_int, [c.c_void_p, c.c_uint32, WRITE, c.c_void_p]),
     "rlvc_agent_check": (c.c_int, [c.c_void_p]),
+    "rlvc_descriptors_default": (c.c_int, [
+        c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_float,
+    ]),
+    "rlvc_descriptors_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_descriptors_radius": (c.c_float, [c.c_void_p]),
+    "rlvc_descriptors_nearest": (c.c_int, [
+        c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
+    ]),
+    "rlvc_bags_default": (c.c_int, [c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_float]),
+    "rlvc_bags_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_bags_count": (c.c_uint32, [c.c_void_p]),
+    "rlvc_bags_needed": (c.c_float, [c.c_void_p]),
+    "rlvc_bags_nearest": (c.c_int, [
+        c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32, c.c_void_p, c.c_void_p,
+    ]),
     "rlvc_bits_domain": (c.c_int, [c.c_uint32, c.c_void_p]),
     "rlvc_chi2_survival": (c.c_int, [c.c_float, c.c_uint32, c.c_void_p, c.c_void_p]),
     "rlvc_chi2_critical": (c.c_int, [c.c_float, c.c_uint32, c.c_void_p]),
@@ -706,14 +729,6 @@ CORE: Functions = {
     "rlvc_exact_sum_join": (None, [c.c_void_p, c.c_void_p]),
     "rlvc_counts_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_learn_counts": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
-    "rlvc_descriptors_default": (c.c_int, [
-        c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_float,
-    ]),
-    "rlvc_descriptors_domain": (c.c_int, [c.c_void_p, c.c_void_p]),
-    "rlvc_descriptors_radius": (c.c_float, [c.c_void_p]),
-    "rlvc_descriptors_nearest": (c.c_int, [
-        c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
-    ]),
     "rlvc_export_c": (c.c_int, [c.c_void_p, c.c_void_p, WRITE, c.c_void_p, c.c_void_p]),
     "rlvc_log_open": (c.c_int, [c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p]),
     "rlvc_log_begin": (c.c_int, [c.c_void_p, c.c_void_p]),

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import whole
+from ..domains.bags import Bags
 from ..domains.bits import Bits
 from ..domains.callbacks import Guard
 from ..domains.descriptors import Descriptors
@@ -70,7 +71,7 @@ class Learner(Handle, Generic[_D, _C]):
         self._pack: Callable[[Any], bytes] = made.pack
         self._pack_many: Callable[[Any], npt.NDArray[Any]] = made.pack_many
         self._native_domain = made.native(self._guard)
-        if type(made) not in (Bits, Descriptors, Spatial, Thresholds):
+        if type(made) not in (Bags, Bits, Descriptors, Spatial, Thresholds):
             percept_bytes = int(self._native_domain.percept_bytes)
             self._pack = checked_pack(made.pack, percept_bytes)
             self._pack_many = checked_pack_many(made.pack_many, percept_bytes)
@@ -317,8 +318,9 @@ class Learner(Handle, Generic[_D, _C]):
         ----------
         file : str or Path
         domain : Domain or None
-            The domain of an agent. None if that is :class:`rlvc.Bits`, :class:`rlvc.Descriptors`,
-            :class:`rlvc.Spatial` or :class:`rlvc.Thresholds`, which are in the file.
+            The domain of an agent. None if that is :class:`rlvc.Bags`, :class:`rlvc.Bits`,
+            :class:`rlvc.Descriptors`, :class:`rlvc.Spatial` or :class:`rlvc.Thresholds`, which are
+            in the file.
 
         Returns
         -------

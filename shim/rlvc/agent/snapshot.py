@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Snapshots in memory, and the files of agents and planners.
 
-The JSON of a file (:mod:`rlvc.agent.kept`) has ``bits``, ``descriptors``, ``spatial`` and
-``thresholds``, one of which holds the parameters of the domain (all are null for a user-defined
+The JSON of a file (:mod:`rlvc.agent.kept`) has ``bags``, ``bits``, ``descriptors``, ``spatial``
+and ``thresholds``, one of which holds the parameters of the domain (all are null for a user-defined
 domain), ``names``, ``config``, and ``bytes``, the size of the library's snapshot, which follows.
 """
 
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _native
+from ..domains.bags import Bags
 from ..domains.bits import Bits
 from ..domains.descriptors import Descriptors
 from ..domains.domain import Domain
@@ -130,6 +131,7 @@ def read_file(
 def described(domain: Domain) -> dict[str, Any]:
     """Return the members of a header that say of which domain percepts are."""
     return {
+        "bags": domain.parameters if isinstance(domain, Bags) else None,
         "bits": domain.bits if isinstance(domain, Bits) else None,
         "descriptors": domain.parameters if type(domain) is Descriptors else None,
         "spatial": domain.parameters if isinstance(domain, Spatial) else None,
@@ -139,6 +141,8 @@ def described(domain: Domain) -> dict[str, Any]:
 
 def domain_of(head: dict[str, Any]) -> Domain | None:
     """Make the domain whose parameters are in a header; None: it is user-defined."""
+    if head.get("bags") is not None:
+        return Bags(*head["bags"])
     if head.get("bits") is not None:
         return Bits(head["bits"])
     if head.get("descriptors") is not None:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..domains.bags import Bags
 from ..domains.descriptors import Descriptors
 from ..domains.spatial import Spatial
 from ..errors import ConfigError, MetricError
@@ -157,7 +158,11 @@ class Extractor(Owned):
         return Sight(record, numbers.reshape(count, self.dimensions), points[:count])
 
     def domain(
-        self, radius: float | None = None, pairs: bool | int | None = None, **parameters: Any
+        self,
+        radius: float | None = None,
+        pairs: bool | int | None = None,
+        bags: bool | int = False,
+        **parameters: Any,
     ) -> Descriptors:
         """Return the domain of the percepts.
 
@@ -169,12 +174,16 @@ class Extractor(Owned):
             Whether pairs of points are features, too, and how many are candidates for one class
             (True: 64). None: if the config has ``places``. If it has none, only what :meth:`look`
             returns is a percept of the domain.
+        bags : bool or int
+            Whether features are bags of vectors (:class:`rlvc.Bags`), and of how many at most
+            (True: 16). Not together with pairs.
         **parameters
-            ``candidates``, ``draws`` and ``margin`` of :class:`rlvc.Descriptors`.
+            ``candidates``, ``draws`` and ``margin`` of :class:`rlvc.Descriptors`; of bags
+            ``candidates``.
 
         Returns
         -------
-        Descriptors or Spatial
+        Descriptors, Spatial or Bags
 
         Raises
         ------
@@ -189,6 +198,12 @@ class Extractor(Owned):
             radius = self.metric.tau / self.step
         form: Any = self.config.form
         places = self.config.places
+        if bags is not False:
+            if pairs or places != "none":
+                raise ConfigError("bags: percepts with places have pairs; make it with places none")
+            if bags is not True:
+                parameters["size"] = bags
+            return Bags(self.config.points, self.dimensions, radius, form, **parameters)
         if pairs is None:
             pairs = places != "none"
         if pairs is False:

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""The domain of bags of vectors, from Python."""
+
+import pickle
+
+import numpy as np
+import pytest
+from conftest import without_vision
+
+import rlvc
+from rlvc import errors
+
+PARTS = 4
+
+
+@pytest.fixture(params=["float", "int8"])
+def domain(request):
+    return rlvc.Bags(points=8, dimensions=32, radius=4.0, form=request.param, size=PARTS)
+
+
+def scene(domain, thing, missing, random):
+    """A thing of four parts, of which some are missing, before four parts of something else."""
+    kept = random.permutation(PARTS)[missing:]
+    vectors = np.zeros((len(kept) + 4, 32), domain.vector_dtype)
+    vectors[np.arange(len(kept)), PARTS * thing + kept] = 10
+    behind = np.arange(len(kept), len(vectors))
+    vectors[behind, 16 + random.integers(8, size=4)] = -10
+    vectors[behind, 24 + random.integers(8, size=4)] = 10
+    return random.permutation(vectors)
+
+
+def taught(domain):
+    random = np.random.default_rng(1)
+    agent = rlvc.Agent(domain, 2, discount=0.0)
+    for i in range(400):
+        agent.begin(scene(domain, i % 4, random.integers(2), random))
+        action = int(random.integers(2))
+        agent.observe(action, float(action == (i % 4 == 0)), None, terminated=True)
+    agent.learn()
+    return agent
+
+
+def test_half_of_a_thing_is_enough(domain, tmp_path):
+    agent = taught(domain)
+    assert agent.classes == 2
+    (split,) = agent.splits
+    assert split.name.startswith("bag ")
+    assert 0 < split.feature["count"] <= PARTS
+    random = np.random.default_rng(2)
+    for i in range(100):
+        percept = scene(domain, i % 4, 2, random)
+        assert agent.predict(percept).action == (i % 4 == 0)
+        found = domain.nearest(percept, split.feature)
+        squares = np.array([min(distance, 4.0) ** 2 for _, distance in found])
+        enough = (16 - squares).sum() >= split.feature["needed"]
+        assert domain.exhibits(percept, split.feature) == enough
+    agent.save(tmp_path / "agent.rlvc")
+    again = rlvc.Agent.load(tmp_path / "agent.rlvc")
+    assert again.domain.parameters == domain.parameters
+    assert again.print() == agent.print() == pickle.loads(pickle.dumps(agent)).print()
+    with pytest.raises(errors.ConfigError):
+        agent.export_c("seen")
+
+
+def test_empty_percepts_have_nothing_near(domain):
+    feature = taught(domain).splits[0].feature
+    with pytest.raises(errors.PerceptError, match="no vectors"):
+        domain.nearest(np.zeros((0, 32), domain.vector_dtype), feature)
+
+
+@pytest.mark.parametrize("size", [0, 33, 1.5])
+def test_sizes(size):
+    with pytest.raises(errors.ConfigError, match="size"):
+        rlvc.Bags(points=5, dimensions=3, radius=4.0, size=size)
+
+
+@pytest.mark.skipif(bool(without_vision()), reason=without_vision())
+def test_extractors_have_a_domain_of_bags():
+    import rlvc.vision
+
+    pictures = np.random.default_rng(1).integers(256, size=(4, 48, 48, 3), dtype=np.uint8)
+    metric = rlvc.vision.Metric.fit(pictures, form="int8")
+    extractor = rlvc.vision.Extractor(metric=metric, form="int8")
+    assert extractor.domain(bags=True).parameters[5] == 16
+    domain = extractor.domain(bags=8, candidates=5)
+    assert domain.parameters[4:] == (5, 8)
+    assert domain.pack(extractor.look(pictures[0]).vectors) == extractor.extract(pictures[0])
+    with pytest.raises(errors.ConfigError, match="bags"):
+        extractor.domain(bags=True, pairs=True)
+    placed = rlvc.vision.Extractor(metric=metric, form="int8", places="points")
+    with pytest.raises(errors.ConfigError, match="bags"):
+        placed.domain(bags=True)
