@@ -16,6 +16,28 @@ static rlvc_planner *make(const rlvc_config *config, uint64_t *block) {
     return make_in(config, block, sizeof memory);
 }
 
+/* ------------------------------------------------------------------ first percepts */
+
+/* They are counted for ever: also where a number of 32 bits would begin anew, there are some, and
+ * the next one takes the oldest one's place. */
+static void test_first_percepts_for_ever(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    const float percept[2] = {0.25f, -0.5f};
+    for (uint32_t n = 1; n < 4u * RLVC_PLANNER_STARTS; n++) {
+        assert_int_equal(rlvc_begin(as_agent(planner), percept), RLVC_OK);
+        assert_int_equal(planner->starts % RLVC_PLANNER_STARTS, n % RLVC_PLANNER_STARTS);
+        assert_int_equal(planner->starts < RLVC_PLANNER_STARTS, n < RLVC_PLANNER_STARTS);
+    }
+    for (uint32_t n = 0; n < 3u; n++) {
+        planner->starts = UINT32_MAX - n;
+        assert_int_equal(rlvc_begin(as_agent(planner), percept), RLVC_OK);
+        assert_int_equal(planner->starts,
+                         n == 0 ? RLVC_PLANNER_STARTS : 2u * RLVC_PLANNER_STARTS - n);
+    }
+}
+
 /* ------------------------------------------------------------------ as a policy by itself */
 
 static char text[4000];
@@ -247,9 +269,13 @@ static void test_calls_from_callbacks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_policy_alone),       cmocka_unit_test(test_no_policy),
-        cmocka_unit_test(test_the_tree_is_the_policy), cmocka_unit_test(test_another_method),
-        cmocka_unit_test(test_without_a_table),        cmocka_unit_test(test_calls_from_callbacks),
+        cmocka_unit_test(test_first_percepts_for_ever),
+        cmocka_unit_test(test_the_policy_alone),
+        cmocka_unit_test(test_no_policy),
+        cmocka_unit_test(test_the_tree_is_the_policy),
+        cmocka_unit_test(test_another_method),
+        cmocka_unit_test(test_without_a_table),
+        cmocka_unit_test(test_calls_from_callbacks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

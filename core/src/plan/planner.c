@@ -160,6 +160,13 @@ static rlvc_status available(rlvc_agent *agent, const float *percept, rlvc_plann
     return is_percept(*planner, percept) ? RLVC_OK : RLVC_E_PERCEPT;
 }
 
+/* Counts a first percept. Beyond those that are remembered only where the next one goes matters,
+ * and that there were some: after 2^32 it would be 0 again. */
+static uint32_t next_count(uint32_t starts) {
+    return starts < RLVC_PLANNER_STARTS ? starts + 1u
+                                        : RLVC_PLANNER_STARTS + (starts + 1u) % RLVC_PLANNER_STARTS;
+}
+
 rlvc_status rlvc_planner_begin(rlvc_agent *agent, const void *first) {
     rlvc_planner *planner;
     const float *percept = first;
@@ -172,7 +179,7 @@ rlvc_status rlvc_planner_begin(rlvc_agent *agent, const void *first) {
     rlvc_experience_begin(&planner->experience, percept);
     memcpy(planner->start + (size_t)(planner->starts % RLVC_PLANNER_STARTS) * d, percept,
            d * sizeof(float));
-    planner->starts++;
+    planner->starts = next_count(planner->starts);
     open_episode(planner, percept);
     planner->open = 1;
     return RLVC_OK;

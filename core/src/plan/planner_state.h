@@ -60,7 +60,7 @@ typedef struct rlvc_planner {
     uint8_t *cells;      /* visited */
     uint8_t *fresh;      /* and in the rollouts of a candidate */
     uint32_t cells_bytes;
-    uint32_t starts; /* ever */
+    uint32_t starts; /* ever; from RLVC_PLANNER_STARTS on, that and the remainder */
     uint32_t commons;
     uint32_t steps; /* of the episode */
     float earned;   /* in the episode */
