@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The domain of bits (section 6.1).
  *
- * The batch detector loads, for each of 64 samples, the bits of up to 64 consecutive features as
+ * The batch detector loads, for each of 64 samples, the bits of features within 64 of each other as
  * one word, and so has a matrix of 64 rows (samples) that it wants by columns (features). It
  * transposes in six steps: step j = 32, 16, ..., 1 exchanges, in each square of 2j x 2j bits on the
  * diagonal, the two j x j squares off it. */
@@ -96,40 +96,44 @@ static void transpose(uint64_t row[WORD_BITS], uint32_t wanted) {
     exchange(row, 1, 0x5555555555555555u, wanted);
 }
 
-static int consecutive(const unsigned char *feature, uint32_t m) {
-    const uint32_t first = rlvc_bits_feature(feature);
-    for (uint32_t j = 1; j < m; j++)
-        if (rlvc_bits_feature(feature + (size_t)j * RLVC_BITS_FEATURE_BYTES) != first + j)
-            return 0;
-    return 1;
+/* The features' lowest bit, and in *span the bits from it to the highest. */
+static uint32_t lowest_of(const unsigned char *feature, uint32_t m, uint32_t *span) {
+    uint32_t lowest = rlvc_bits_feature(feature), highest = lowest;
+    for (uint32_t j = 1; j < m; j++) {
+        const uint32_t bit = rlvc_bits_feature(feature + (size_t)j * RLVC_BITS_FEATURE_BYTES);
+        lowest = bit < lowest ? bit : lowest;
+        highest = bit > highest ? bit : highest;
+    }
+    *span = highest - lowest + 1u;
+    return lowest;
 }
 
 static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t n,
                   const void *features, uint32_t m, uint64_t *columns) {
     const unsigned char *feature = (const unsigned char *)features;
     uint64_t row[WORD_BITS] = {0};
+    uint32_t span;
+    const uint32_t begin = lowest_of(feature, m, &span);
+    const int near = span <= WORD_BITS;
     (void)ctx;
-    if (consecutive(feature, m)) {
-        const uint32_t begin = rlvc_bits_feature(feature);
-        for (uint32_t i = 0; i < n; i++) {
-            const void *percept = rlvc_samples_percept(samples, first + i);
-            const uint32_t later = first + i + RLVC_DETECT_SAMPLES;
-            if (later < samples->count)
-                FETCH((const unsigned char *)rlvc_samples_percept(samples, later) + begin / 8u);
+    for (uint32_t i = 0; i < n; i++) {
+        const void *percept = rlvc_samples_percept(samples, first + i);
+        const uint32_t later = first + i + RLVC_DETECT_SAMPLES;
+        if (later < samples->count)
+            FETCH((const unsigned char *)rlvc_samples_percept(samples, later) + begin / 8u);
+        if (near)
             row[i] = load_window((const unsigned char *)percept, samples->percept_bytes, begin);
-        }
-        transpose(row, m);
-    } else {
-        for (uint32_t i = 0; i < n; i++) {
-            const void *percept = rlvc_samples_percept(samples, first + i);
-            for (uint32_t j = 0; j < m; j++) {
-                const unsigned char *wanted = feature + (size_t)j * RLVC_BITS_FEATURE_BYTES;
-                row[j] |= bit_of((const unsigned char *)percept, rlvc_bits_feature(wanted)) << i;
-            }
+        for (uint32_t j = 0; !near && j < m; j++) {
+            const unsigned char *wanted = feature + (size_t)j * RLVC_BITS_FEATURE_BYTES;
+            row[j] |= bit_of((const unsigned char *)percept, rlvc_bits_feature(wanted)) << i;
         }
     }
+    if (near)
+        transpose(row, span);
     for (uint32_t j = 0; j < m; j++)
-        columns[j] = row[j];
+        columns[j] =
+            row[near ? rlvc_bits_feature(feature + (size_t)j * RLVC_BITS_FEATURE_BYTES) - begin
+                     : j];
     return 0;
 }
 

@@ -171,6 +171,70 @@ static void test_what_is_split(void **state) {
     }
 }
 
+/* ------------------------------------------------------------------ many at once */
+
+#define WIDE_CAPACITY 700u
+#define WIDE_BYTES                                                                                 \
+    RLVC_AGENT_BYTES(2, WIDE_CAPACITY, 16, 8, RLVC_BITS_FEATURE_BYTES, RLVC_DETECT_FEATURES)
+static uint64_t wide[WIDE_BYTES / 8u], before[WIDE_BYTES / 8u], at_once[WIDE_BYTES / 8u];
+
+/* Of so many bits one is turned round by action 1, and the others are drawn. The ring is gone round
+ * more than once, and now and then an episode ends. */
+static rlvc_agent *live_widely(life *l, uint32_t bits, uint32_t turned, uint32_t seed) {
+    rlvc_rng rng;
+    uint64_t percept = 0;
+    unsigned char bytes[8] = {0};
+    assert_int_equal(rlvc_bits_domain(bits, &l->domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&l->config, &l->domain, 2), RLVC_OK);
+    l->config.capacity = WIDE_CAPACITY;
+    l->config.classes = 16;
+    assert_int_equal(rlvc_agent_init(&l->config, &l->domain, wide, sizeof wide, &l->agent),
+                     RLVC_OK);
+    rlvc_rng_seed(&rng, seed);
+    for (uint32_t i = 0; i < 2u * WIDE_CAPACITY + 17u * seed; i++) {
+        const rlvc_choice choice = {(uint8_t)rlvc_rng_below(&rng, 2), 0};
+        const uint64_t one = UINT64_C(1) << turned;
+        const uint64_t noise = (uint64_t)rlvc_rng_next(&rng) << 32 | rlvc_rng_next(&rng);
+        if (i == 0 || rlvc_rng_below(&rng, 30) == 0)
+            assert_int_equal(rlvc_begin(l->agent, bytes), RLVC_OK);
+        percept = ((percept ^ (choice.action ? one : 0u)) & one) | (noise & ~one);
+        for (uint32_t byte = 0; byte < 8u; byte++)
+            bytes[byte] = (unsigned char)(percept >> 8u * byte);
+        const int over = rlvc_rng_below(&rng, 40) == 0;
+        assert_int_equal(
+            rlvc_observe(l->agent, choice, 0.0f, bytes, over ? RLVC_TERMINATED : RLVC_GOES_ON),
+            RLVC_OK);
+        if (over)
+            assert_int_equal(rlvc_begin(l->agent, bytes), RLVC_OK);
+    }
+    return l->agent;
+}
+
+/* Runs of samples make what one sample at a time makes, which is what small budgets leave; and the
+ * bit that is influenced is found, and no other. */
+static void test_runs_of_samples(void **state) {
+    (void)state;
+    const uint32_t widths[] = {2, 31, 32, 33, 63, 64};
+    for (uint32_t i = 0; i < 12u; i++) {
+        const uint32_t bits = widths[i / 2u], turned = i % 2u == 0 ? 0 : bits - 1u;
+        life l;
+        rlvc_progress progress;
+        rlvc_agent *agent = live_widely(&l, bits, turned, i + 1u);
+        memcpy(before, wide, sizeof wide);
+        assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+        memcpy(at_once, wide, sizeof wide);
+        memcpy(wide, before, sizeof wide);
+        do
+            assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+        while (!progress.done);
+        assert_memory_equal(wide, at_once, sizeof wide);
+        assert_int_equal(agent->tree.classes, 2);
+        assert_int_equal(rlvc_bits_feature(rlvc_tree_feature(&agent->tree, 0)), turned);
+    }
+}
+
+/* ------------------------------------------------------------------ dependence */
+
 /* Learns up to where it is measured how far samples depend on each other, in the first of two
  * times or the second. */
 static void weigh(life *l, uint8_t again) {
@@ -230,6 +294,7 @@ int main(void) {
         cmocka_unit_test(test_many_degrees),
         cmocka_unit_test(test_small_tables),
         cmocka_unit_test(test_what_is_split),
+        cmocka_unit_test(test_runs_of_samples),
         cmocka_unit_test(test_dependence_of_a_failing_callback),
         cmocka_unit_test(test_dependence_without_a_feature),
     };

@@ -143,22 +143,18 @@ static void clear(min_tree *s) {
 /* Makes the key of a stretch: the features that all its rows share, then their values.
  * @return whether there is a feature that parts it. */
 static int make_key(min_tree *s, uint32_t begin, uint32_t end) {
-    uint64_t *any = s->key, *all = s->key + s->words;
+    const uint32_t words = s->words;
     int parts = 0;
-    memset(any, 0, s->words * sizeof *any);
-    memset(all, 0xFF, s->words * sizeof *all);
-    if (s->words == 0) /* no features: there is no row to look into */
-        return 0;
-    for (uint32_t at = begin; at < end; at++) {
-        const uint64_t *row = row_at(s, at);
-        for (uint32_t w = 0; w < s->words; w++) {
-            any[w] |= row[w];
-            all[w] &= row[w];
+    for (uint32_t w = 0; w < words; w++) {
+        uint64_t any = 0, all = UINT64_MAX;
+        for (uint32_t at = begin; at < end; at++) {
+            const uint64_t word = row_at(s, at)[w];
+            any |= word;
+            all &= word;
         }
-    }
-    for (uint32_t w = 0; w < s->words; w++) {
-        any[w] = ~(any[w] ^ all[w]); /* shared; bits beyond the features, which no row has, too */
-        parts |= any[w] != UINT64_MAX;
+        s->key[w] = ~(any ^ all); /* shared; bits beyond the features, which no row has, too */
+        s->key[words + w] = all;
+        parts |= any != all;
     }
     return parts;
 }
@@ -166,16 +162,18 @@ static int make_key(min_tree *s, uint32_t begin, uint32_t end) {
 /* The actions that all rows of a stretch allow. */
 static uint64_t common(const min_tree *s, uint32_t begin, uint32_t end) {
     uint64_t actions = UINT64_MAX;
-    for (uint32_t at = begin; at < end; at++)
+    for (uint32_t at = begin; at < end && actions != 0; at++)
         actions &= allowed_at(s, at);
     return actions;
 }
 
-/* A lower bound of F(S): rows that pairwise allow nothing in common need a leaf each. */
+/* A lower bound of F(S): rows that pairwise allow nothing in common need a leaf each. Once these
+ * allow every action between them, there is no other. */
 static uint32_t lower_bound(const min_tree *s, uint32_t begin, uint32_t end) {
+    const uint64_t all = UINT64_MAX >> (64u - s->actions);
     uint64_t taken = 0;
     uint32_t count = 0;
-    for (uint32_t at = begin; at < end; at++) {
+    for (uint32_t at = begin; at < end && taken != all; at++) {
         if ((allowed_at(s, at) & taken) == 0) {
             taken |= allowed_at(s, at);
             count++;

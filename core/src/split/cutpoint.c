@@ -27,6 +27,7 @@
  * The phases:
  *      COUNT   bits of the column, by chunks of a sixteenth of it;
  *      PROBE   the score at a cutpoint near the end of each chunk, so that the bar is high early;
+ *              a column of one word is looked at bit by bit at once;
  *      then, from left to right,
  *      CHUNK   a chunk is passed over, if it may be;
  *      BLOCK   a block of 2^level words in it is passed over, if it may be, else halved; after one
@@ -152,7 +153,7 @@ static uint32_t count_step(rlvc_cutpoint_cursor *scan, uint32_t budget) {
     scan->best.present += present;
     scan->word = end;
     if (end == words) {
-        scan->phase = HAS_RANKS && scan->by_ranks ? RANK : PROBE;
+        scan->phase = HAS_RANKS && scan->by_ranks ? RANK : words == 1u ? BITS : PROBE;
         scan->word = 0;
         scan->done = scan->best.present == 0 || scan->best.present == scan->count;
         set_bar(scan, scan->bar);

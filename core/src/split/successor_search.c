@@ -9,6 +9,8 @@
 
 #include "successor_search.h"
 
+#include "../base/popcount.h"
+#include "../base/solver_select.h"
 #include "successor_evidence.h"
 #include <string.h>
 
@@ -120,6 +122,91 @@ static rlvc_status count(rlvc_successor_cursor *search, const rlvc_split_input *
     return RLVC_OK;
 }
 
+/* Fewer samples are not worth detecting at once. */
+#define RUN_MIN 4u
+
+/* How many samples from the one at work on, before `end`, have each a next percept, in the slot
+ * after its own: with all percepts a slot further on, detect() sees what follows them. At most as
+ * many as it is asked about at once. */
+static uint32_t run_of(const rlvc_successor_cursor *search, const rlvc_split_input *input,
+                       uint32_t end) {
+    const rlvc_sample *sample = search->view.sample + search->at;
+    const uint32_t left = end - search->at;
+    const uint32_t most = left < RLVC_DETECT_SAMPLES ? left : RLVC_DETECT_SAMPLES;
+    uint32_t n = 0;
+    while (n < most && rlvc_replay_linked(input->replay, sample[n].slot) &&
+           rlvc_replay_next(input->replay, sample[n].slot) != 0)
+        n++;
+    return n;
+}
+
+/* Features detected at once: half of what detect() takes, for the stack. */
+#define RUN_FEATURES (RLVC_DETECT_FEATURES / 2u)
+
+/* Of a feature in a run: how many samples exhibit it, how many are followed by it, and both. */
+typedef struct in_run {
+    uint8_t now, next, both;
+} in_run;
+
+/* Looks for features [first, first + m) of the block in the next n samples: a run. */
+static rlvc_status detect_run(const rlvc_successor_cursor *search, const rlvc_split_input *input,
+                              uint32_t n, uint32_t first, uint32_t m, in_run *found) {
+    const rlvc_domain *domain = input->domain;
+    const void *features = feature_of(search, input, first);
+    const uint64_t asked = UINT64_MAX >> (64u - n);
+    uint64_t now[RUN_FEATURES], next[RUN_FEATURES];
+    rlvc_samples after = search->view;
+    after.percepts += after.percept_bytes;
+    if (domain->detect(domain->ctx, &search->view, search->at, n, features, m, now) != 0 ||
+        domain->detect(domain->ctx, &after, search->at, n, features, m, next) != 0)
+        return RLVC_E_CALLBACK;
+    for (uint32_t j = 0; j < m; j++) {
+        const uint64_t seen[3] = {now[j] & asked, next[j] & asked, now[j] & next[j] & asked};
+        found[j].now = (uint8_t)rlvc_popcount(seen, 1);
+        found[j].next = (uint8_t)rlvc_popcount(seen + 1, 1);
+        found[j].both = (uint8_t)rlvc_popcount(seen + 2, 1);
+    }
+    return RLVC_OK;
+}
+
+/* Counts all features of the block in a run of n samples, or if a callback fails none. */
+static rlvc_status count_run(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                             uint32_t n) {
+    in_run found[RLVC_DETECT_FEATURES];
+    for (uint32_t first = 0; first < search->block; first += RUN_FEATURES) {
+        const uint32_t left = search->block - first;
+        rlvc_status status = detect_run(search, input, n, first,
+                                        left < RUN_FEATURES ? left : RUN_FEATURES, found + first);
+        if (status != RLVC_OK)
+            return status;
+    }
+    for (uint32_t j = 0; j < search->block; j++) {
+        rlvc_following *action = &tally_of(input, j)->action;
+        action->n[1][1] += found[j].both;
+        action->n[1][0] += (rlvc_count)(found[j].now - found[j].both);
+        action->n[0][1] += (rlvc_count)(found[j].next - found[j].both);
+        action->n[0][0] += (rlvc_count)((int32_t)n + found[j].both - found[j].now - found[j].next);
+    }
+    search->at += n;
+    return RLVC_OK;
+}
+
+/* Counts on in the pair at work: where the domain detects many features at once and the budget is
+ * large, in a run of samples; else one feature in one of them. The units are the same. */
+static rlvc_status count_some(rlvc_successor_cursor *search, const rlvc_split_input *input,
+                              uint32_t end, uint32_t budget, uint32_t *used) {
+    const uint32_t each = 2u * search->block;
+    if (RLVC_AT_ONCE && search->feature == 0 && budget >= each * RLVC_DETECT_SAMPLES &&
+        input->domain->detect) {
+        const uint32_t n = run_of(search, input, end);
+        *used = each * n;
+        if (n >= RUN_MIN)
+            return count_run(search, input, n);
+    }
+    *used = 2;
+    return count(search, input);
+}
+
 /* ------------------------------------------------------------------ evidence */
 
 /* Weighs some features of the block; after the last, goes on to the next pair. */
@@ -186,9 +273,9 @@ static rlvc_status advance(rlvc_successor_cursor *search, const rlvc_split_input
         *used = 1;
         return propose(search, input);
     case COUNT:
-        *used = 2;
         if (search->at < first[search->pair + 1u])
-            return count(search, input);
+            return count_some(search, input, first[search->pair + 1u], budget, used);
+        *used = 2;
         enter(search, WEIGH);
         return RLVC_OK;
     case WEIGH:
