@@ -138,9 +138,9 @@ typedef struct range {
 } range;
 
 static int wrong_in_counts(const rlvc_config *config) {
-    static const range ranges[] = {{1, 255},       {1, INT32_MAX},
-                                   {1, 65535},     {1, RLVC_DETECT_FEATURES},
-                                   {2, INT32_MAX}, {1, INT32_MAX}};
+    static const range ranges[] = {
+        {1, 255},       {1, INT32_MAX}, {1, RLVC_CLASSES_MAX}, {1, RLVC_DETECT_FEATURES},
+        {2, INT32_MAX}, {1, INT32_MAX}};
     for (int i = 0; i < (int)(sizeof ranges / sizeof ranges[0]); i++) {
         const uint32_t count = field_of(config, offsetof(rlvc_config, actions), i);
         if (count < ranges[i].low || count > ranges[i].high)
@@ -229,7 +229,8 @@ static const char *message_of(int wrong) {
         [WRONG_DOMAIN_NAME] = "domain: name must not be null",
         [WRONG_ACTIONS] = "actions must be within [1, 255]",
         [WRONG_CAPACITY] = "capacity must be within [1, 2^31 - 1]",
-        [WRONG_CLASSES] = "classes must be within [1, 65535]",
+        [WRONG_CLASSES] = RLVC_AT_ONCE ? "classes must be within [1, 65535]"
+                                       : "classes must be within [1, 512]: RLVC_AT_ONCE is 0",
         [WRONG_FEATURES_AT_ONCE] = "features_at_once must be within [1, 64]",
         [WRONG_MIN_SAMPLES] = "min_samples must be within [2, 2^31 - 1]",
         [WRONG_MAX_SWEEPS] = "max_sweeps must be within [1, 2^31 - 1]",

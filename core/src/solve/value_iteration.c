@@ -16,19 +16,51 @@ enum { SWEEP, IMPROVE };
 
 #define HAS_IMPROVING RLVC_HAS_SOLVER(RLVC_SOLVER_POLICY_ITERATION)
 
-static void restart(rlvc_solver_cursor *solver, uint8_t phase) {
+/* Decided when the library is built, where no model is large. */
+#define HAS_LARGE (RLVC_CLASSES_MAX > RLVC_CLASSES_SMALL)
+#define EVALUATES(solver) (HAS_LARGE && (solver)->evaluating)
+#define GOES_BACK(solver) (HAS_LARGE && (solver)->backwards)
+
+/* Between two sweeps by all actions of a large model. An even number, so that those go there and
+ * back, too. */
+#define EVALUATIONS 8u
+
+/* Begins a class in a sweep. */
+static void open_class(rlvc_solver_cursor *solver, const rlvc_values *values) {
+    const uint32_t c = solver->class_id;
+    solver->action = EVALUATES(solver) ? values->trial[c] : 0u;
+    solver->transition = values->begin.transition[rlvc_values_pair(values, c, solver->action)];
+}
+
+static int is_large(const rlvc_solver_cursor *solver, const rlvc_solver_input *input) {
+    return HAS_LARGE && input->classes > RLVC_CLASSES_SMALL &&
+           !(HAS_IMPROVING && solver->improve) &&
+           (!RLVC_HAS_UNDISCOUNTED || input->discount < 1.0f);
+}
+
+/* What kind of sweep this one is follows from its number. */
+static void choose_sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input) {
+    if (HAS_LARGE) {
+        const int large = is_large(solver, input);
+        solver->large = (uint8_t)large;
+        solver->evaluating = large && solver->sweeps % (EVALUATIONS + 1u) != 0;
+        solver->backwards = large && solver->sweeps % 2u != 0;
+    }
+}
+
+static void restart(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                    const rlvc_values *values, uint8_t phase) {
+    choose_sweep(solver, input);
     solver->phase = phase;
-    solver->class_id = 0;
-    solver->action = 0;
-    solver->transition = 0;
-    rlvc_sum_clear(&solver->sum);
+    solver->class_id = GOES_BACK(solver) ? input->classes - 1u : 0u;
+    open_class(solver, values);
 }
 
 void rlvc_solver_begin(rlvc_solver_cursor *solver, uint8_t kind) {
     const int improve = HAS_IMPROVING && kind == RLVC_SOLVER_POLICY_ITERATION;
     memset(solver, 0, sizeof *solver);
     solver->improve = (uint8_t)improve;
-    restart(solver, improve ? IMPROVE : SWEEP);
+    solver->phase = improve ? IMPROVE : SWEEP;
 }
 
 static float magnitude(float x) {
@@ -46,19 +78,21 @@ static int settled(const rlvc_solver_cursor *solver, const rlvc_solver_input *in
 }
 
 /* Ends a sweep, or begins the next. */
-static void end_sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input) {
+static void end_sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                      const rlvc_values *values) {
     const int improve = HAS_IMPROVING && solver->improve;
     solver->sweeps++;
-    if (solver->sweeps >= input->max_sweeps || (settled(solver, input) && !improve)) {
+    if (solver->sweeps >= input->max_sweeps ||
+        (settled(solver, input) && !improve && !EVALUATES(solver))) {
         solver->done = 1;
     } else if (improve && settled(solver, input)) {
         solver->changed = 0;
-        restart(solver, IMPROVE);
+        restart(solver, input, values, IMPROVE);
     } else {
         solver->residual = 0.0f;
         solver->largest = 0.0f;
         solver->endless = 0;
-        restart(solver, SWEEP);
+        restart(solver, input, values, SWEEP);
     }
 }
 
@@ -72,41 +106,78 @@ static float bounded(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
     return value < 0.0f ? -most : most;
 }
 
-/* V(c), once every Q(c, a) of the class is there, whose greatest is `best`. */
-static void back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input, rlvc_values *values,
-                    float best) {
-    uint32_t c = solver->class_id;
-    float before = values->value[c];
-    float after = best;
-    if (HAS_IMPROVING && solver->improve) {
-        size_t pair = rlvc_values_pair(values, c, values->trial[c]);
-        after = rlvc_values_counts(values, pair) ? values->q[pair] : before;
-    }
-    after = bounded(solver, input, values, after);
+/* V(c) := Q(c, action), once what the sweep backs up of the class is there; and goes on.
+ * @return 1: that was the last class. */
+static inline int back_up(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                          const rlvc_values *values, uint32_t action) {
+    const uint32_t c = solver->class_id;
+    const size_t pair = rlvc_values_pair(values, c, action);
+    const float before = values->value[c];
+    const float after =
+        bounded(solver, input, values, rlvc_values_counts(values, pair) ? values->q[pair] : before);
+    const float change = magnitude(after - before);
     values->value[c] = after;
-    float change = magnitude(after - before);
+    if (HAS_LARGE && solver->large && !solver->evaluating)
+        values->trial[c] = (uint8_t)action;
     solver->largest = magnitude(after) > solver->largest ? magnitude(after) : solver->largest;
-    solver->action = 0;
     solver->residual = change > solver->residual ? change : solver->residual;
-    if (++solver->class_id == input->classes)
-        end_sweep(solver, input);
+    if (c == (GOES_BACK(solver) ? 0u : input->classes - 1u))
+        return 1;
+    solver->class_id = GOES_BACK(solver) ? c - 1u : c + 1u;
+    open_class(solver, values);
+    return 0;
+}
+
+/* Is V(c) that of one action, whatever the others are worth? */
+static int keeps_policy(const rlvc_solver_cursor *solver) {
+    return (HAS_IMPROVING && solver->improve) || EVALUATES(solver);
+}
+
+/* Adds what transitions [at, end) lead to, as a plain sum: what an evaluation adds. */
+static void add_plainly(rlvc_sum *sum, const rlvc_transition *transition, uint32_t at, uint32_t end,
+                        const float *value) {
+    for (uint32_t i = at; i < end; i++) {
+        const uint32_t next = transition[i].next;
+        sum->sum += (next == RLVC_NO_CLASS ? 0.0f : value[next]) * (float)transition[i].count;
+        sum->weight += transition[i].count;
+    }
+}
+
+/* Adds some of the transitions of the pair at work, up to `end`. @return how many. */
+static uint32_t add_transitions(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                                const rlvc_values *values, uint32_t end, uint32_t budget) {
+    const uint32_t from = solver->transition;
+    if (!EVALUATES(solver))
+        return rlvc_model_add(&solver->sum, input->transition, &solver->transition, end, budget,
+                              values->value);
+    solver->transition = end - from < budget ? end : from + budget;
+    add_plainly(&solver->sum, input->transition, from, solver->transition, values->value);
+    return solver->transition - from;
 }
 
 /* Part of a sweep: adds transitions, or completes a pair. */
 static uint32_t sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                       rlvc_values *values, uint32_t budget) {
-    size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
-    if (solver->transition < values->begin.transition[pair + 1u])
-        return rlvc_model_add(&solver->sum, input->transition, &solver->transition,
-                              values->begin.transition[pair + 1u], budget, values->value);
-    if (values->begin.transition[pair] < values->begin.transition[pair + 1u])
+    const uint32_t c = solver->class_id;
+    size_t pair = rlvc_values_pair(values, c, solver->action);
+    const uint32_t end = values->begin.transition[pair + 1u];
+    if (solver->transition < end)
+        return add_transitions(solver, input, values, end, budget);
+    if (values->begin.transition[pair] < end)
         values->q[pair] = values->pair.reward[pair] + input->discount * rlvc_sum_mean(&solver->sum);
     else if (values->tried[pair] == 0)
         values->q[pair] = 0.0f;
     rlvc_sum_clear(&solver->sum);
-    if (++solver->action == values->actions)
-        back_up(solver, input, values, rlvc_values_best(values, solver->class_id));
+    if ((EVALUATES(solver) || ++solver->action == values->actions) &&
+        back_up(solver, input, values,
+                keeps_policy(solver) ? values->trial[c] : rlvc_values_greedy(values, c)))
+        end_sweep(solver, input, values);
     return 1;
+}
+
+/* A sum's mean: a signed integer becomes a float sooner. */
+static float mean_of(const rlvc_sum *sum) {
+    return (sum->sum + sum->rest) / (float)(int64_t)sum->weight;
 }
 
 /* The mean value of what follows a pair, by transitions [at, end): as rlvc_model_add makes it. The
@@ -124,19 +195,50 @@ static float mean_value(const rlvc_transition *transition, uint32_t at, uint32_t
             sum.weight = transition[i].count;
         }
     }
-    return rlvc_sum_mean(&sum);
+    return mean_of(&sum);
 }
 
-/* All of a class at once, where the budget allows it: the same arithmetic, without what it takes to
- * stop between two transitions. */
-static uint32_t sweep_class(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
-                            rlvc_values *values) {
+/* How many of a class's pairs the sweep backs up; the first is of solver->action. */
+static inline uint32_t pairs_of(const rlvc_solver_cursor *solver, const rlvc_values *values) {
+    return EVALUATES(solver) ? 1u : values->actions;
+}
+
+/* The units of the class at work, if the sweep is at its beginning and the budget allows them; else
+ * 0. */
+static inline uint32_t whole_class(const rlvc_solver_cursor *solver, const rlvc_values *values,
+                                   uint32_t budget) {
+    const uint32_t pairs = pairs_of(solver, values);
+    const uint32_t *begin =
+        values->begin.transition + rlvc_values_pair(values, solver->class_id, solver->action);
+    const uint32_t units = begin[pairs] - begin[0] + pairs;
+    const int at_beginning = EVALUATES(solver) || solver->action == 0;
+    return at_beginning && solver->transition == begin[0] && budget >= units ? units : 0u;
+}
+
+/* Backs up the greedy action of the class at work. @return that. */
+static inline uint32_t evaluate_class(const rlvc_solver_cursor *solver,
+                                      const rlvc_solver_input *input, const rlvc_values *values) {
+    const size_t pair = rlvc_values_pair(values, solver->class_id, solver->action);
+    const uint32_t at = values->begin.transition[pair], end = values->begin.transition[pair + 1u];
+    rlvc_sum sum = {0.0f, 0.0f, 0u};
+    add_plainly(&sum, input->transition, at, end, values->value);
+    if (at < end)
+        values->q[pair] = values->pair.reward[pair] + input->discount * mean_of(&sum);
+    else if (values->tried[pair] == 0)
+        values->q[pair] = 0.0f;
+    return solver->action;
+}
+
+/* Backs up all actions of the class at work. @return the one that V(c) is of. */
+static inline uint32_t sweep_class(const rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                                   const rlvc_values *values) {
     const uint32_t *begin = values->begin.transition;
-    const size_t first = rlvc_values_pair(values, solver->class_id, 0);
-    const size_t last = first + values->actions;
-    float best = values->value[solver->class_id];
+    const size_t first = rlvc_values_pair(values, solver->class_id, solver->action);
+    const size_t end = first + values->actions;
+    uint32_t greedy = values->policy[solver->class_id];
+    float best = 0.0f;
     int any = 0;
-    for (size_t pair = first; pair < last; pair++) {
+    for (size_t pair = first; pair < end; pair++) {
         float q = values->tried[pair] == 0 ? 0.0f : values->q[pair];
         if (begin[pair] < begin[pair + 1u])
             q = values->pair.reward[pair] +
@@ -145,12 +247,32 @@ static uint32_t sweep_class(rlvc_solver_cursor *solver, const rlvc_solver_input 
         values->q[pair] = q;
         if (values->tried[pair] > 0 && (!any || q > best)) {
             best = q;
+            greedy = (uint32_t)(pair - first);
             any = 1;
         }
     }
-    solver->transition = begin[last];
-    back_up(solver, input, values, best);
-    return begin[last] - begin[first] + values->actions;
+    return HAS_IMPROVING && solver->improve ? values->trial[solver->class_id] : greedy;
+}
+
+/* As many whole classes of a sweep as the budget allows: the same arithmetic, without what it takes
+ * to stop between two transitions, and with a copy of the cursor, for the registers.
+ * @return the units; 0: not one. */
+static uint32_t sweep_classes(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
+                              const rlvc_values *values, uint32_t budget) {
+    rlvc_solver_cursor now = *solver;
+    uint32_t used = 0, units = whole_class(&now, values, budget);
+    int ended = 0;
+    while (units > 0) {
+        used += units;
+        ended = back_up(&now, input, values,
+                        EVALUATES(&now) ? evaluate_class(&now, input, values)
+                                        : sweep_class(&now, input, values));
+        units = ended ? 0u : whole_class(&now, values, budget - used);
+    }
+    *solver = now;
+    if (ended)
+        end_sweep(solver, input, values);
+    return used;
 }
 
 /* Makes the policy of one class greedy. An action must be better than the present one by more than
@@ -169,28 +291,20 @@ static void improve(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
     if (++solver->class_id < input->classes)
         return;
     if (solver->changed || solver->sweeps == 0)
-        restart(solver, SWEEP);
+        restart(solver, input, values, SWEEP);
     else
         solver->done = 1;
     solver->residual = solver->done ? solver->residual : 0.0f;
     solver->largest = 0.0f;
 }
 
-/* Is the cursor at the beginning of a class that the budget is enough for? */
-static int is_whole(const rlvc_solver_cursor *solver, const rlvc_values *values, uint32_t budget) {
-    const size_t first = rlvc_values_pair(values, solver->class_id, 0);
-    const uint32_t end = values->begin.transition[first + values->actions];
-    return solver->action == 0 && solver->transition == values->begin.transition[first] &&
-           budget >= end - solver->transition + values->actions;
-}
-
 /* Works on the phase; returns the work. */
 static uint32_t step_phase(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                            rlvc_values *values, uint32_t budget) {
-    if (!HAS_IMPROVING || solver->phase == SWEEP)
-        return RLVC_AT_ONCE && is_whole(solver, values, budget)
-                   ? sweep_class(solver, input, values)
-                   : sweep(solver, input, values, budget);
+    if (!HAS_IMPROVING || solver->phase == SWEEP) {
+        const uint32_t used = RLVC_AT_ONCE ? sweep_classes(solver, input, values, budget) : 0u;
+        return used > 0 ? used : sweep(solver, input, values, budget);
+    }
     improve(solver, input, values);
     return 1;
 }
@@ -198,6 +312,7 @@ static uint32_t step_phase(rlvc_solver_cursor *solver, const rlvc_solver_input *
 uint32_t rlvc_solver_step(rlvc_solver_cursor *solver, const rlvc_solver_input *input,
                           rlvc_values *values, uint32_t budget) {
     uint32_t used = 0;
+    choose_sweep(solver, input); /* of a cursor that has just begun, or was restored */
     while (used < budget && !solver->done)
         used += step_phase(solver, input, values, budget - used);
     return used;

@@ -12,6 +12,15 @@
  * most config.tolerance. Where binary32 cannot resolve so much, a few units in the last place of
  * the largest value do.
  *
+ * Value iteration on a large model, of more than RLVC_CLASSES_SMALL classes, is modified policy
+ * iteration (Puterman and Shin 1978). After a sweep by all actions, which makes pi greedy, come
+ * eight that evaluate it, V(c) := Q(c, pi(c)), for an n-th of the work each with n actions; so the
+ * last sweep is one by all actions. Every other sweep goes from the last class to the first, so
+ * that what is known of one class comes soon to those before it as well. An evaluation adds up
+ * plainly, as what it rounds is made good by the next sweep by all actions. Small models, which
+ * take no time, are solved by plain sweeps; so are those without a discount, where a policy need
+ * not end.
+ *
  * For gamma = 1 delta itself is held to the tolerance, and a class from which the model knows no
  * way to an end has no value: a sum of rewards that goes on for ever. A sweep adds a step to it. So
  * no V is taken further from 0 than half of max_sweeps times the greatest mean reward, as much as a
@@ -32,9 +41,12 @@ typedef struct rlvc_solver_cursor {
     uint32_t class_id; /* where the sweep is: class, action, transition */
     uint32_t action;
     uint32_t transition;
-    uint8_t improve; /* policy iteration */
-    uint8_t changed; /* the policy, in this improvement */
-    uint8_t endless; /* in this sweep a V was held at its bound */
+    uint8_t improve;    /* policy iteration */
+    uint8_t changed;    /* the policy, in this improvement */
+    uint8_t endless;    /* in this sweep a V was held at its bound */
+    uint8_t large;      /* value iteration on a large model, where this sweep */
+    uint8_t evaluating; /* backs up but the greedy action of the last one by all; */
+    uint8_t backwards;  /* goes from the last class to the first */
     uint8_t phase;
     uint8_t done;
 } rlvc_solver_cursor;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Value iteration on a decision process in a file, for solvers.py.
 //
-//     bench_solve FILE DISCOUNT TOLERANCE REPEATS
+//     bench_solve FILE DISCOUNT TOLERANCE REPEATS START
 //
 // FILE, of little-endian numbers of 4 bytes: states, actions, transitions; where the transitions of
 // each pair begin (states * actions + 1); the mean reward of each pair (float); of each transition
-// the state that follows and a count. A state of 2^32 - 1 ends. Prints the median of seconds of
-// processor time, the sweeps, and the values.
+// the state that follows and a count. A state of 2^32 - 1 ends. All values are START at first.
+// Prints the median of seconds of processor time, the sweeps, and the values.
 extern "C" {
 #include "samples/replay.h"
 #include "solve/value_iteration.h"
@@ -32,7 +32,7 @@ template <class T> std::vector<T> read(std::ifstream &file, std::size_t count) {
 } // namespace
 
 int main(int count, char **arguments) {
-    if (count != 5) {
+    if (count != 6) {
         return 2;
     }
     std::ifstream file(arguments[1], std::ios::binary);
@@ -63,7 +63,7 @@ int main(int count, char **arguments) {
     std::vector<double> seconds;
     rlvc_solver_cursor solver{};
     for (int i = 0; i < std::atoi(arguments[4]); i++) {
-        std::fill(value.begin(), value.end(), 0.0f);
+        std::fill(value.begin(), value.end(), std::strtof(arguments[5], nullptr));
         const std::clock_t start = std::clock();
         rlvc_solver_begin(&solver, RLVC_SOLVER_VALUE_ITERATION);
         while (!solver.done) {
