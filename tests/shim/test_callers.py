@@ -2,13 +2,15 @@
 """What a caller, an environment or an object of the caller's hands over by mistake is refused by an error of
 the package that names it."""
 
+import sys
+
 import gymnasium
 import numpy as np
 import pytest
 from gymnasium import spaces
 
 import rlvc
-from rlvc import errors
+from rlvc import _native, errors
 
 
 class Line(gymnasium.Env):
@@ -181,6 +183,72 @@ def test_where_a_fleet_is_exported_to(file, tmp_path):
 
     with pytest.raises(errors.ConfigError, match=r"does not end in \.npz"):
         fleet.export(tmp_path, file)
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "said"),
+    [
+        ({"folder": None}, errors.ConfigError, "folder: None is not"),
+        ({"folder": 3}, errors.ConfigError, "folder: 3 is not"),
+        ({"folder": ""}, errors.ConfigError, "folder: '' is not"),
+        ({"folder": "file"}, errors.StoreError, "file: cannot be written"),
+        ({"prefix": "a/b"}, errors.ConfigError, "prefix: 'a/b' cannot"),
+        ({"prefix": "../b"}, errors.ConfigError, r"prefix: '\.\./b' cannot"),
+        ({"prefix": 3}, errors.ConfigError, "prefix: 3 cannot"),
+        ({"prefix": "a\0"}, errors.ConfigError, "prefix: .* cannot"),
+    ],
+    ids=str,
+)
+def test_where_a_log_is_converted_to(changes, error, said, tmp_path, monkeypatch):
+    from rlvc import fleet
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_bytes(b"precious")
+    given = {"folder": "folder", "actions": 2, **changes}
+    with pytest.raises(error, match=said):
+        fleet.convert(log(), given.pop("folder"), **given)
+    assert [path.name for path in tmp_path.iterdir() if path.is_file()] == ["file"]
+
+
+@pytest.mark.parametrize("changes", [{"workers": 0}, {"workers": "x"}, {"checkpoint": 3}], ids=str)
+def test_how_a_fleet_learns(changes, tmp_path):
+    from rlvc import fleet
+
+    fleet.convert(log(), tmp_path / "log", actions=2)
+    with pytest.raises(errors.ConfigError, match=next(iter(changes))):
+        fleet.learn_from(tmp_path / "log", **changes)
+
+
+def test_a_ctrl_c_that_meets_a_pool_before_it_has_begun(monkeypatch):
+    def begun(*_arguments):
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            raise RuntimeError("cannot join thread before it is started")  # noqa: B904
+
+    monkeypatch.setattr(rlvc.learning.many, "ProcessPoolExecutor", begun)
+    with pytest.raises(KeyboardInterrupt):
+        many(processes=2)
+
+
+def test_a_ctrl_c_while_a_domain_is_made():
+    """Numpy must not take it for a type that it does not know."""
+    made = rlvc.Thresholds(2).feature_dtype
+    assert made == np.dtype(_native.Threshold)
+
+    def strike(frame, event, _argument):
+        if "numpy" in frame.f_code.co_filename and event == "call":
+            raise KeyboardInterrupt
+        return
+
+    sys.settrace(strike)
+    try:
+        rlvc.Thresholds(2)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        sys.settrace(None)
+    assert rlvc.Thresholds(2).feature_dtype == made
 
 
 def test_names_that_look_like_comments():

@@ -14,6 +14,11 @@ from ..errors import DomainError, PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
 
+# Field by field: of a struct of ctypes numpy makes it in Python, and drops a Ctrl-C that strikes then.
+_FEATURE = np.dtype(
+    [("cutpoint", np.float32), ("slope", np.float32), ("component", np.uint16), ("other", np.uint16)]
+)
+
 
 class Thresholds(BuiltinDomain):
     """Percepts of real numbers; a feature is a test x[i] > c.
@@ -50,7 +55,7 @@ class Thresholds(BuiltinDomain):
         self._build(_native.Thresholds(components, cutpoints, oblique))
         self.components = components
         super().__init__(
-            np.float32, (components,), np.dtype(_native.Threshold), self._domain.features_max
+            np.float32, (components,), _FEATURE, self._domain.features_max
         )
 
     def pack(self, percept: Percept) -> bytes:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..checks import whole
 from ..counts.table import Columns
-from ..errors import ConfigError, LogError
+from ..errors import ConfigError, LogError, StoreError
 from ..files import replace
 from ..learning.encode import Encoder
 from ..logs import read
@@ -71,23 +71,47 @@ def convert(
     ------
     LogError
         The log is damaged, or its percepts are not bits.
+    ConfigError
+        An argument is out of range.
+    StoreError
+        The folder or a file in it cannot be written.
     """
     file_rows = whole("file_rows", file_rows, 1, 2**31)
+    if not isinstance(folder, str | Path) or not str(folder):
+        raise ConfigError(f"folder: {folder!r:.80} is not the name of a folder")
+    if not isinstance(prefix, str) or Path(prefix).name != prefix or "\0" in prefix:
+        raise ConfigError(f"prefix: {prefix!r:.80} cannot begin the name of a file")
     source = read(log, columns)
     all_of_it, bits, _ = columns_of_log(source, encoder, space)
     count = whole("actions", actions or source.known.count, 1, 255)
-    filesystem, within = filesystem_of(str(folder))
+    pa = layout.arrow()
+    try:
+        return _written(all_of_it, source.exploited, (bits, count, file_rows), str(folder), prefix)
+    except (OSError, pa.ArrowException) as error:
+        raise StoreError(f"{folder}: cannot be written: {error}") from error
+
+
+def _written(
+    all_of_it: Columns,
+    choices: npt.NDArray[np.bool_] | None,
+    sizes: tuple[int, int, int],
+    folder: str,
+    prefix: str,
+) -> list[str]:
+    """Write the files; return their names."""
+    bits, count, file_rows = sizes
+    filesystem, within = filesystem_of(folder)
     filesystem.create_dir(within, recursive=True)
     names = []
     for number, some in enumerate(_episodes(all_of_it.ends, file_rows)):
-        exploited = None if source.exploited is None else source.exploited[some]
+        exploited = None if choices is None else choices[some]
         name = f"{prefix}-{number:05d}.parquet"
         writer = layout.Writer(
             f"{within}/{name}", bits, count, exploited is not None, filesystem=filesystem
         )
         writer.write(_cut(all_of_it, some), exploited)
         writer.close()
-        names.append(f"{str(folder).rstrip('/')}/{name}")
+        names.append(f"{folder.rstrip('/')}/{name}")
     return names
 
 

@@ -148,6 +148,8 @@ def learn_from(
     rounding = _rounding(reward_bits, reward_grid)
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     skip = flag("skip_broken", skip_broken)
+    if not isinstance(checkpoint, str | Path | None):
+        raise ConfigError(f"checkpoint: {checkpoint!r:.80} is not the name of a file")
     found = opened(source, real=method == "planner")
     count = whole("actions", actions if actions is not None else found.actions, 1, 255)
     job: Callable[[Engine, Bar], FleetRun]
@@ -163,6 +165,8 @@ def learn_from(
         counting = Counting(question, rounding, memory, skip, most)
         guessed = whole("sample", SAMPLE if sample is None else sample, 0, 2**48)
         job = functools.partial(counted.learn, agent, found, counting, guessed, checkpoint)
+    if workers is not None:
+        workers = whole("workers", workers, 1, 10**6)
     engine = engine_of(cluster, workers)
     bar = Bar(flag("progress", progress), found.rows)
     try:

@@ -136,8 +136,13 @@ def learn_many(
         forks = "fork" in multiprocessing.get_all_start_methods() and sys.platform == "linux"
         context = multiprocessing.get_context("fork" if forks else "spawn")
         workers = min(processes or os.cpu_count() or 1, len(jobs))  # all begin at once
-        with ProcessPoolExecutor(workers, context, _take, (jobs,)) as pool:
-            done = list(pool.map(_nth, range(len(jobs))))
+        try:
+            with ProcessPoolExecutor(workers, context, _take, (jobs,)) as pool:
+                done = list(pool.map(_nth, range(len(jobs))))
+        except RuntimeError as error:  # the pool cannot end what had not begun when Ctrl-C came
+            if isinstance(error.__context__, KeyboardInterrupt):
+                raise KeyboardInterrupt from None
+            raise
     grid = np.unique(np.linspace(0, interactions, points + 1)[1:].astype(np.int64))
     returns = np.array([_on_grid(grid, when, values) for _, when, values in done])
     return Many([run for run, _, _ in done], chosen, grid, returns)
