@@ -7,28 +7,19 @@ rlvc/GroundView-v0 on pictures of scikit-image and scikit-learn. A run has a goa
 is fitted to 60 views of its photograph, and 4,000 interactions at random; with --heading-unknown the camera is turned
 by any angle, and it has 8,000. A line tells the share of 25 episodes that find the goal within 60 moves, how
 many moves they take in relation to those of an oracle that knows where it is, and how many classes there
-are. Needs scikit-image and scikit-learn."""
+are. Needs scikit-image, scikit-learn and OpenCV."""
 
 import argparse
 
 import numpy as np
 
+import objects
 import rlvc
 import rlvc.envs
 import rlvc.vision
 
 EPISODES, VIEWS, STEPS = 25, 60, 16
 CHANGES = 0.7  # of the moves of a wandering camera
-
-
-def photograph(name):
-    if name in ("china", "flower"):
-        from sklearn.datasets import load_sample_image
-
-        return load_sample_image(f"{name}.jpg").copy()
-    from skimage import data
-
-    return getattr(data, name)()
 
 
 def make_eye(env, random, unknown):
@@ -84,7 +75,7 @@ def wander(env, eye, interactions, seed, random):
 
 def run(name, seed, unknown):
     random = np.random.default_rng(seed)
-    env = rlvc.envs.GroundView(photograph(name), turn=180 if unknown else 0,
+    env = rlvc.envs.GroundView(objects.photograph(name), turn=180 if unknown else 0,
                                goal=tuple(random.uniform(0.1, 0.9, 2)))
     eye = make_eye(env, random, unknown)
     interactions = 8000 if unknown else 4000

@@ -12,9 +12,9 @@ A run puts 33 objects into the cells of a maze; the metric is fitted to 33 other
 noise 3 and light +-5 %, eight pictures a pose, 4,500 interactions at random. The share of decisions that are
 optimal is of pictures that were not learnt from: at the poses seen, at +-10 (held out), before six other
 photographs (clutter), with 10 or 20 % of the picture covered by one colour, at 0.8 to 1.25 times the
-size, and of narrow at +-30. The least action right in most cells is right in 64 % of them. Rules: vectors (a
-feature is one vector, 30 points, sigma 6) and bags (of 16 vectors, 120 points, sigma 2.5). Needs
-scikit-image and scikit-learn."""
+size, and of narrow at +-30. One action everywhere is optimal in 64 % of the cells. Rules: vectors (a feature is
+one vector, 30 points, sigma 6) and bags (of 16 vectors, 120 points, sigma 2.5). Needs scikit-image and
+scikit-learn."""
 
 import argparse
 import sys
