@@ -27,6 +27,7 @@ TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
 
 from suite import controls, learners, options, report, runs, tasks, worlds  # noqa: E402
+from suite.learners import q_tree  # noqa: E402
 
 ENVIRONMENT = {
     **os.environ, "PYTHONPATH": os.pathsep.join([str(TOOLS), os.environ.get("PYTHONPATH", "")]),
@@ -289,6 +290,40 @@ def test_fitted_q_iteration_grows_a_tree():
     made, actions = run_peer("fqi-rlvc", task, 1)
     assert made["leaves"] > 4
     assert task.world.evaluate(actions) > 0.5
+
+
+def test_a_q_tree_splits_a_settled_leaf_by_the_bit_that_differs_most():
+    stats = pytest.importorskip("scipy.stats")
+    random = np.random.default_rng(1)
+    rows = random.integers(2, size=(40, 5)).astype(bool)
+    changes = random.standard_normal(40) + 2.0 * rows[:, 3] - 1.0
+    t = [abs(stats.ttest_ind(changes[row], changes[~row], equal_var=False).statistic) for row in rows.T]
+    assert q_tree._t(rows, changes) == pytest.approx(t)
+    tree = q_tree.Tree(2, 5, 40)
+    tree.q[0][1] = 7.0
+    for row, change in zip(rows, changes, strict=True):
+        assert tree.bit == [-1]
+        tree.note(0, row, change, 3.0)
+    assert tree.bit == [3, -1, -1]
+    assert [tree.leaf(row) for row in rows] == [1 + int(row[3]) for row in rows]
+    assert all(tree.q[leaf].tolist() == [0.0, 7.0] for leaf in (1, 2))
+    one_way = q_tree.Tree(2, 5, 40)
+    for row in rows:
+        one_way.note(0, row, 5.0, 3.0)  # Q still goes up
+    assert one_way.bit == [-1]
+
+
+def test_a_q_tree_learns_what_follows_nothing_else():
+    made, actions = run_peer("q-tree", tasks.TASKS["slippery"](), 1)
+    assert made["leaves"] > 1
+    assert len(set(actions.tolist())) > 1
+
+
+def test_taxi_as_it_is_seen_as_one_number():
+    task = tasks.TASKS["cab"]()
+    best = task.world.solve(0.99).argmax(axis=1)
+    look = task.look(lambda states: best[states], 0)
+    assert look.good and look.optimal == 1 and look.value == pytest.approx(7.93, abs=0.005)
 
 
 def test_the_cross_entropy_method_balances_the_pole():

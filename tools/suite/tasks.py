@@ -71,8 +71,9 @@ class Task:
     bars: tuple
     world: worlds.World | None = None
     changed: int | None = None  # interactions before the world changes
-    peers: tuple = ("fqi-rlvc", "rmax", "vi", "q", "q-raw", "fqi", "dqn")
+    peers: tuple = ("fqi-rlvc", "rmax", "vi", "q", "q-raw", "q-tree", "fqi", "dqn")
     runs_a_seed: int = 1
+    distractors: tuple = ()  # bits that are, where there is no world that says so
 
     @property
     def title(self):
@@ -200,12 +201,33 @@ def large():
     ))  # fmt: skip
 
 
+def _taxi():
+    newest = max(name for name in gymnasium.registry if name.startswith("Taxi-v"))
+    return gymnasium.make(newest)
+
+
 def taxi():
     s = np.arange(500)
     row, column, passenger, destination = s // 100, s // 20 % 5, s // 4 % 5, s % 4
     numbers = ((row, 3), (column, 3), (passenger, 3), (destination, 2))
     parts = [worlds.binary(*number) for number in numbers]
-    return _text("taxi", functools.partial(gymnasium.make, "Taxi-v3"), parts, 30000, 7.8, 80)
+    return _text("taxi", _taxi, parts, 30000, 7.8, 80)
+
+
+def cab():
+    wanted = 7.8
+    world = worlds.table_world(_taxi(), [worlds.binary(np.arange(500), 9)], 0)
+
+    def look(act, done):
+        chosen = np.repeat(act(world.reachable), worlds.DRAWS)
+        value = world.evaluate(chosen)
+        return Look(value, world.optimal_states(chosen, 0.99), value >= wanted)
+
+    return Task(
+        "cab", f"asked: a return of {wanted}; all in one number, whose bits mix row, column, passenger "
+        "and destination", 0.99, 30000, lambda seed: _taxi(), look,
+        (Bar("return after 30,000 interactions, median", median("value"), wanted, True),), world, peers=(),
+    )  # fmt: skip
 
 
 def _share(wanted, leaves, limit):
@@ -334,20 +356,24 @@ def far():
     )  # fmt: skip
 
 
-def _random_rewards(name, walked, bars):
+def _random_rewards(name, asked, walked, bars):
     return Task(
-        name, "asked: nothing", 0.9, 2000, lambda seed: worlds.Nothing(seed, walked),
+        name, asked, 0.9, 2000, lambda seed: worlds.Nothing(seed, walked),
         lambda act, done: Look(math.nan, None, True), bars, peers=(), runs_a_seed=10,
+        distractors=worlds.Nothing.distractors,
     )  # fmt: skip
 
 
 def nothing():
     grown = share(lambda record: record["leaves"] > 1)
-    return _random_rewards("nothing", False, (Bar("share of runs whose tree has a test", grown, 0.05),))
+    bar = Bar("share of runs whose tree has a test", grown, 0.05)
+    return _random_rewards("nothing", "asked: nothing", False, (bar,))
 
 
 def wander():
-    return _random_rewards("wander", True, ())
+    # The agent moves: tests of where it is are structure, and any policy is as good. Noise is not.
+    asked = "asked: no test but of the place, which the actions change"
+    return _random_rewards("wander", asked, True, (CLEAN,))
 
 
 def changing():
@@ -378,7 +404,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, large, taxi, cartpole, noise, sensors, car, acrobot, pendulum, lander, grid, far,
-    nothing, wander, changing,
+    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander, grid,
+    far, nothing, wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}

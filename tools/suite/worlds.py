@@ -319,6 +319,8 @@ class Nothing(gymnasium.Env):
     episode has 100 moves.
     """
 
+    distractors = tuple(range(6, 12))
+
     def __init__(self, seed, walked):
         self.coin, self.walked = seed % 2 == 0, walked
         self.observation_space = spaces.MultiBinary(12)

@@ -50,6 +50,9 @@ LEARNERS = {
         "q_learning", "rate 0.1, epsilon 0.1; each different observation is a state",
         settings={"raw": True},
     ),
+    "q-tree": Learner(
+        "q_tree", "rate 0.1, epsilon 0.3, the last 200 changes of Q in a leaf, split where t > 3",
+    ),
     "fqi": Learner("fitted_q", "on random actions, 50 trees, 50 rounds at the end of the run", {
         "sklearn": "python3-sklearn",
     }),

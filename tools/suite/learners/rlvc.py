@@ -26,7 +26,7 @@ def _compact(run):
 
 def _on_bits(run, task):
     """How many tests of an agent's tree are of distractors."""
-    noise = [] if task.world is None else task.world.distractors.tolist()
+    noise = task.distractors if task.world is None else task.world.distractors.tolist()
     return sum(int(split.feature) in noise for split in run.agent.splits) if noise else 0
 
 
