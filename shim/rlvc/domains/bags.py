@@ -20,7 +20,9 @@ class Bags(Descriptors):
     Each vector of a bag that is a distance d < radius away from the nearest of a percept's vectors
     scores radius^2 - d^2. A percept exhibits the feature if the sum is at least what the feature
     needs. Such features survive clutter and covered parts better than the single vectors of
-    :class:`rlvc.Descriptors`; learning takes longer.
+    :class:`rlvc.Descriptors`; learning takes longer. A bag is gathered by the rewards it is then
+    tested on, so that trees test noise more often than ``alpha`` says: with random rewards 8 % of
+    runs did with 0.01.
 
     Parameters
     ----------

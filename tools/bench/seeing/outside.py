@@ -20,7 +20,6 @@ import argparse
 import sys
 import time
 
-import cv2
 import numpy as np
 
 import objects
