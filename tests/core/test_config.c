@@ -50,7 +50,7 @@ static void test_defaults(void **state) {
         assert_int_equal(config.features_at_once, at_once[i]);
         assert_int_equal(config.actions, 9);
         assert_int_equal(config.successors, i % 2);
-        assert_int_equal(config.dependence, 0);
+        assert_int_equal(config.dependence, i % 2);
         assert_true(config.alpha_known == (i % 2 ? 0.1f : 1.0f));
         expect(NULL, "defaults");
     }

@@ -146,6 +146,7 @@ static rlvc_agent *make_lasting(float less, float discount, uint32_t sweeps) {
     config.discount = discount;
     config.tolerance = 1e-5f;
     config.max_sweeps = sweeps;
+    config.dependence = 0; /* 300 interactions with one percept, and then as many with the other */
     assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);
     for (uint32_t i = 0; i < 600; i++) {
         const unsigned char percept = (unsigned char)(i / 300u);

@@ -109,7 +109,7 @@ static void test_resume_anywhere(void **state) {
                 player_play(&p, 60);
             assert_int_equal(rlvc_learn(p.agent, budget, &progress), RLVC_OK);
             steps += progress.done;
-            if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 100u)
+            if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 200u)
                 player_play(&p, 1);
             if (n % every == 0 || phases[p.agent->learner.phase] < 3u) {
                 phases[p.agent->learner.phase]++;

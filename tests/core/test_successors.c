@@ -53,7 +53,7 @@ static void test_effect(void **state) {
 
 static void test_influence(void **state) {
     (void)state;
-    const rlvc_following turned = {{{10, 30}, {30, 10}}}, kept = {{{30, 10}, {10, 30}}};
+    const rlvc_following turned = {{{10, 30, 0}, {30, 10, 0}}}, kept = {{{30, 10, 0}, {10, 30, 0}}};
     rlvc_successor_evidence evidence;
     memset(&evidence, 0, sizeof evidence);
     rlvc_influence_add(&evidence, &kept, 0);
@@ -72,6 +72,25 @@ static void test_influence(void **state) {
     assert_near(rlvc_successor_evidence_log_p(&evidence), 0.0f, 0.0f);
 }
 
+/* A feature that never changes, but tells where an action ends the episode. */
+static void test_what_ends_an_episode(void **state) {
+    (void)state;
+    const rlvc_following goes_on = {{{40, 0, 0}, {0, 40, 0}}}, ends = {{{40, 0, 0}, {0, 20, 20}}},
+                         always = {{{0, 0, 40}, {0, 0, 40}}};
+    rlvc_successor_evidence evidence;
+    memset(&evidence, 0, sizeof evidence);
+    rlvc_influence_add(&evidence, &goes_on, 0);
+    rlvc_influence_add(&evidence, &always, 1);
+    assert_int_equal(evidence.degrees, 0); /* it tells nothing */
+    rlvc_influence_add(&evidence, &ends, 0);
+    assert_int_equal(evidence.degrees, 1);
+    /* 80 (40 * 20)^2 / (40 * 40 * 20 * 60), times 79 / 80 */
+    assert_near(evidence.statistic, 79.0f / 3.0f, 1e-3f);
+    memset(&evidence, 0, sizeof evidence);
+    rlvc_lasting_add(&evidence, &always); /* of what has ended nothing lasts */
+    assert_int_equal(evidence.degrees, 0);
+}
+
 /* As many standard deviations above the mean: ln p goes on where the degrees end. */
 static void test_many_degrees(void **state) {
     (void)state;
@@ -81,6 +100,11 @@ static void test_many_degrees(void **state) {
     evidence.statistic = 24.0f + 40.0f;
     const float log_p = rlvc_successor_evidence_log_p(&evidence);
     assert_near(log_p, -10.9798f, 0.01f);
+    evidence.degrees--; /* an odd number: the next one */
+    assert_near(rlvc_successor_evidence_log_p(&evidence), log_p, 0.0f);
+    evidence.degrees = RLVC_SUCCESSOR_ODD_MAX;
+    evidence.statistic = 27.0f;
+    assert_near(rlvc_successor_evidence_log_p(&evidence), -12.0427f, 0.01f);
     evidence.degrees = 4u * RLVC_SUCCESSOR_DEGREES_MAX;
     evidence.statistic = 4.0f * 24.0f + 80.0f;
     assert_near(rlvc_successor_evidence_log_p(&evidence), log_p, 1e-3f);
@@ -235,6 +259,34 @@ static void test_runs_of_samples(void **state) {
 
 /* ------------------------------------------------------------------ dependence */
 
+/* Where the ring is short, fewer features than asked for have room for what is counted of them. */
+static void test_many_that_are_influenced(void **state) {
+    (void)state;
+    static uint64_t small[RLVC_AGENT_BYTES(2, 64, 16, 8, RLVC_BITS_FEATURE_BYTES, 64) / 8u];
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    unsigned char percept[8] = {0};
+    assert_int_equal(rlvc_bits_domain(64, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, 2), RLVC_OK);
+    config.capacity = 64;
+    config.classes = 16;
+    config.alpha = 1.0f;
+    assert_int_equal(rlvc_agent_init(&config, &domain, small, sizeof small, &agent), RLVC_OK);
+    assert_int_equal(rlvc_begin(agent, percept), RLVC_OK);
+    for (uint32_t i = 0; i < 63u; i++) { /* action 1 turns all bits round */
+        const rlvc_choice choice = {(uint8_t)(i * i % 3u), 0};
+        for (uint32_t j = 0; j < sizeof percept; j++)
+            percept[j] = (unsigned char)(choice.action ? ~percept[j] : percept[j]);
+        assert_int_equal(rlvc_observe(agent, choice, 0.0f, percept, RLVC_GOES_ON), RLVC_OK);
+    }
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    assert_int_equal(rlvc_agent_check(agent), RLVC_OK);
+    assert_int_equal(agent->tree.classes, 2);
+    assert_int_equal(agent->learner.influenced, 23); /* 2,048 bytes of columns */
+}
+
 /* Learns up to where it is measured how far samples depend on each other, in the first of two
  * times or the second. */
 static void weigh(life *l, uint8_t again) {
@@ -291,10 +343,12 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_effect),
         cmocka_unit_test(test_influence),
+        cmocka_unit_test(test_what_ends_an_episode),
         cmocka_unit_test(test_many_degrees),
         cmocka_unit_test(test_small_tables),
         cmocka_unit_test(test_what_is_split),
         cmocka_unit_test(test_runs_of_samples),
+        cmocka_unit_test(test_many_that_are_influenced),
         cmocka_unit_test(test_dependence_of_a_failing_callback),
         cmocka_unit_test(test_dependence_without_a_feature),
     };

@@ -52,8 +52,7 @@ def grows(task, seed, interactions, every, bits=18, actions=4, shift=0.0, **fiel
 
 
 def grows_staying(task, seed, interactions, every, bits=18, actions=4, **fields):
-    """Likewise, for bits and rewards that stay for a while, of which the learner is told."""
-    fields.setdefault("dependence", 1)
+    """Likewise, for bits and rewards that stay for a while."""
     stays, keeps = STAYING[task]
     rng = numpy.random.default_rng(seed)
     agent = binding.Agent(bits, actions, capacity=interactions, seed=seed, **fields)

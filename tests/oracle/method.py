@@ -355,22 +355,30 @@ def add_table(sums, table):
 
 
 def sum_log_p(statistic, degrees):
-    """ln p; of more than 24 degrees of freedom that of 24, as many standard deviations above the mean."""
+    """ln p; of more than 24 degrees of freedom that of 24, as many standard deviations above the mean; of an odd
+    number above 3 that of one more."""
     if statistic <= degrees:
         return 0.0
     if degrees > 24:
         statistic = 24 + (statistic - degrees) * numpy.sqrt(24 / degrees)
         degrees = 24
+    if degrees > 3:
+        degrees += degrees % 2
     return scipy.stats.chi2.logsf(statistic, degrees)
 
 
-def influenced(percepts, nexts, actions, classes, action_count, log_level):
-    """The features of s' that depend on the action, in strata of the class and of what s exhibits."""
+def influenced(percepts, nexts, ended, actions, classes, action_count, log_level):
+    """The features of s' that depend on the action, in strata of the class and of what s exhibits, or that tell
+    where an action of a class ends the episode; there is no s' where `ended`."""
     passed = []
     for f in range(percepts.shape[1]):
         sums = numpy.zeros(2)
+        for class_id, a in numpy.ndindex(classes.max(initial=0) + 1, action_count):
+            mine = (classes == class_id) & (actions == a)
+            add_table(sums, tuple(numpy.sum(mine & (percepts[:, f] == value) & (ended == e))
+                                  for value, e in ((1, False), (1, True), (0, False), (0, True))))
         for class_id, value in numpy.ndindex(classes.max(initial=0) + 1, 2):
-            mine = (classes == class_id) & (percepts[:, f] == value)
+            mine = ~ended & (classes == class_id) & (percepts[:, f] == value)
             counts = numpy.array([[numpy.sum(nexts[mine & (actions == a), f] == v) for v in (1, 0)]
                                   for a in range(action_count)])
             for a in range(1, action_count):

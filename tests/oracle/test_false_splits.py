@@ -15,6 +15,17 @@ def test_seldom(task, score):
     assert false_splits.count(task, RUNS, INTERACTIONS, EVERY, alpha=0.05, score=score) < 6
 
 
+@pytest.mark.parametrize("task", ["staying", "mixed drift"])
+def test_what_stays_seldom_agrees(task):
+    grown = sum(false_splits.grows_staying(task, seed, INTERACTIONS, EVERY, alpha=0.05) > 0 for seed in range(RUNS))
+    assert grown < 6
+
+
+def test_drift_would_be_taken_for_structure():
+    assert any(false_splits.grows_staying("mixed drift", seed, INTERACTIONS, EVERY, alpha=0.05, dependence=0)
+               for seed in range(5))
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_large_tree_tests_no_noise(seed):
     assert false_splits.tests_noise(seed, alpha=0.05) == (100, 0)

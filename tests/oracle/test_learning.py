@@ -110,8 +110,8 @@ class Learner:
         for look in (search, follow)[:1 + self.config.successors]:
             splits = []
             if look is follow:
-                features = method.influenced(percepts[lives], nexts[lives], actions[lives], here[lives],
-                                             self.config.actions, numpy.log(strict))
+                features = method.influenced(percepts, nexts, ~lives, actions, here, self.config.actions,
+                                             numpy.log(strict))
             for class_id in range(len(self.tree.splits) + 1):
                 split = left[0] if left and left[0][0].class_id == class_id else None
                 known = features if look is follow else [bit for _, bit in self.tree.splits + splits]

@@ -146,7 +146,7 @@ def test_faults_are_named(field, value, text):
 
 def learn(some, tested=(), **config):
     """The agent that counts make, and the passes."""
-    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001} | config
+    fields = {"capacity": 2000, "classes": 512, "discount": 0.99, "tolerance": 0.001, "dependence": False} | config
     agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, **fields))
     progress = rounds.Progress()
     rounds.learn(agent, lambda cell: counted(some, rounds.question_of(agent, cell, False)), progress,
@@ -247,7 +247,7 @@ def test_what_a_hundred_million_say(shift, smallest, classes):
 
 
 def test_too_many_is_an_error():
-    agent = rlvc.Agent(worlds.BITS, rlvc.Config(4))
+    agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, dependence=False))
     part = scaled(counted(worlds.maze(1000), rounds.question_of(agent, (), False)), 2**48)
     with pytest.raises(RangeError):
         agent.learn_counts(part.native(np.arange(18, dtype=np.uint16), np.zeros(0, np.uint32)))
@@ -272,7 +272,7 @@ def test_without_an_effect_there_is_no_split(count):
     false = 0
     for seed in range(20):
         part = without_effect(np.random.default_rng(seed), count, worlds.BITS, 4)
-        agent = rlvc.Agent(worlds.BITS, rlvc.Config(4))
+        agent = rlvc.Agent(worlds.BITS, rlvc.Config(4, dependence=False))
         native = part.native(np.arange(worlds.BITS, dtype=np.uint16), np.zeros(0, np.uint32))
         false += agent.learn_counts(native).splits > 0
     assert false <= 1

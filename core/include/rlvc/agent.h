@@ -109,7 +109,8 @@ typedef struct rlvc_config {
 
     /* 1: a class is also aliased if a feature that the agent influences lasts in it, even while all
      * rewards are equal: what s' exhibits depends on the action, and, after the same action, on
-     * what s exhibits. At most features_at_once such features are followed. Needs the residual
+     * what s exhibits. So does one that tells where an action ends the episode, as the destination
+     * of a taxi. At most features_at_once such features are followed. Needs the residual
      * criterion and a domain with features_max and without an oracle. Default 1 for bits, else 0.
      */
     uint8_t successors;
@@ -118,10 +119,11 @@ typedef struct rlvc_config {
 
     /* 1: for a feature that is new to the tree the samples of a class count as fewer, if from one
      * visit to the next both the feature and what it leaves unexplained of the targets stay: what
-     * stays agrees by chance with other things that do. For rewards that drift by themselves. What
-     * is drawn once an episode, as the destination of a taxi, takes longer to be found. Without
-     * effect unless `successors` is 1, by which what the agent influences is found. 0: the samples
-     * of a class count as independent. Default 0. */
+     * stays agrees by chance with other things that do, as a lamp that is on for a while with
+     * rewards that drift. Without effect unless `successors` is 1, by which what the agent
+     * influences is found. 0: the samples of a class count as independent, as those of counts do
+     * (rlvc/counts.h), which keep no order. Default as `successors`, 0 where that is all that was
+     * built in. */
     uint8_t dependence;
 
     uint8_t reserved; /* 0 */

@@ -49,6 +49,7 @@ rlvc_status rlvc_config_default(rlvc_config *config, const rlvc_domain *domain, 
     if (domain->kind == RLVC_DOMAIN_BITS)
         config->alpha_known = 0.1f;
     config->successors = domain->kind == RLVC_DOMAIN_BITS && !domain->oracle;
+    config->dependence = RLVC_HAS_DEPENDENCE && config->successors;
     return RLVC_OK;
 }
 

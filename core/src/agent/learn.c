@@ -240,13 +240,17 @@ rlvc_status rlvc_learner_weigh_dependence(rlvc_agent *agent, const void *feature
     rlvc_dependence *dependence = &learner->dependence;
     rlvc_target_input criterion = rlvc_learner_target_input(agent, RLVC_CRITERION_RESIDUAL);
     rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
-    rlvc_status status =
-        rlvc_dependence_step(dependence, &input, learner->at, feature, budget, used);
-    if (rlvc_dependence_done(dependence, learner->end)) {
-        dependence->wanted = 0;
-        rlvc_evidence_discount(&learner->work.split.evidence, rlvc_dependence_effect(dependence));
-    }
-    return status;
+    return rlvc_dependence_step(dependence, &input, learner->at, feature, budget, used);
+}
+
+int rlvc_learner_discount(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_dependence *dependence = &learner->dependence;
+    if (!dependence->wanted || !rlvc_dependence_done(dependence, learner->end))
+        return 0;
+    dependence->wanted = 0;
+    rlvc_evidence_discount(&learner->work.split.evidence, rlvc_dependence_effect(dependence));
+    return 1;
 }
 
 uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature) {
@@ -331,6 +335,10 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
     if (learner->phase == RLVC_PHASE_INFLUENCE) {
         learner->influenced = learner->work.successors.kept;
         enter(agent, learner->influenced > 0 ? RLVC_PHASE_SUCCESSORS : RLVC_PHASE_FINISH);
+        return RLVC_OK;
+    }
+    if (RLVC_HAS_DEPENDENCE && rlvc_learner_discount(agent)) {
+        *used = RLVC_TEST_UNITS;
         return RLVC_OK;
     }
     feature = succession

@@ -38,11 +38,15 @@ rlvc_split_input rlvc_learner_split_input(const rlvc_agent *agent,
  * @return the units used */
 uint32_t rlvc_learner_decide(rlvc_agent *agent, rlvc_split *split, const void *feature);
 
-/* Takes into account how long the feature stays that the search found in class `at`: counts in as
- * much of the ring as the budget allows, a unit each.
+/* Measures how far samples depend on each other by the feature that the search found in class `at`,
+ * as far as the budget goes: see dependence.h.
  * @return RLVC_OK; RLVC_E_CALLBACK. */
 rlvc_status rlvc_learner_weigh_dependence(rlvc_agent *agent, const void *feature, uint32_t budget,
                                           uint32_t *used);
+
+/* Once that is measured, and not before: has the p-values take it into account. RLVC_TEST_UNITS.
+ * @return 1 if it did so now. */
+int rlvc_learner_discount(rlvc_agent *agent);
 
 /* ln of the level at which a feature new to the tree splits a class in this step, or counts as
  * influenced: its share of alpha. O(1). */

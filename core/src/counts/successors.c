@@ -8,7 +8,7 @@
 #include "table.h"
 #include <string.h>
 
-/* What follows the actions of a class: adds up the rows of what did not terminate. */
+/* What follows the actions of a class: adds up its rows. */
 static void add_up(rlvc_count_table *table, const rlvc_agent *agent, uint32_t class_id) {
     const rlvc_counts *counts = table->counts;
     const uint32_t features = counts->features, actions = agent->config.actions;
@@ -21,9 +21,11 @@ static void add_up(rlvc_count_table *table, const rlvc_agent *agent, uint32_t cl
         const uint64_t *with = counts->with + i * features;
         const uint64_t *next = counts->follow + i * 2u * features, *both = next + features;
         rlvc_following *to = table->follow + (size_t)row->action * features;
-        if (row->terminated)
-            continue;
-        for (uint32_t f = 0; f < features; f++) {
+        for (uint32_t f = 0; row->terminated && f < features; f++) {
+            to[f].n[1][RLVC_ENDED] += (rlvc_count)with[f];
+            to[f].n[0][RLVC_ENDED] += (rlvc_count)(row->count - with[f]);
+        }
+        for (uint32_t f = 0; !row->terminated && f < features; f++) {
             to[f].n[1][1] += (rlvc_count)both[f];
             to[f].n[1][0] += (rlvc_count)(with[f] - both[f]);
             to[f].n[0][1] += (rlvc_count)(next[f] - both[f]);
@@ -60,7 +62,7 @@ uint32_t rlvc_count_influence(rlvc_count_table *table, const rlvc_agent *agent) 
 
 const void *rlvc_count_lasting(rlvc_count_table *table, const rlvc_agent *agent, uint32_t class_id,
                                uint32_t influenced, rlvc_split *about) {
-    static const rlvc_successor_evidence nothing = {{{{0, 0}, {0, 0}}}, 0.0f, 0};
+    static const rlvc_successor_evidence nothing = {{{0, 0}, {0, 0}}, 0.0f, 0};
     const uint32_t actions = agent->config.actions;
     const uint32_t *first =
         agent->values.begin.sample + rlvc_values_pair(&agent->values, class_id, 0);

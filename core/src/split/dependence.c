@@ -60,7 +60,9 @@ rlvc_status rlvc_dependence_step(rlvc_dependence *dependence, const rlvc_split_i
     if (dependence->at == 0 && !dependence->again)
         memset(input->space->of_action.sides, 0,
                input->space->actions * sizeof *input->space->of_action.sides);
-    for (*used = 0; *used < budget && !rlvc_dependence_done(dependence, end); ++*used) {
+    for (*used = 0;
+         budget - *used >= RLVC_DEPENDENCE_UNITS && !rlvc_dependence_done(dependence, end);
+         *used += RLVC_DEPENDENCE_UNITS) {
         const uint32_t slot = rlvc_replay_slot(replay, dependence->at);
         rlvc_target_cursor target;
         rlvc_target_begin(&target, dependence->at);

@@ -41,8 +41,12 @@ static inline int rlvc_dependence_done(const rlvc_dependence *dependence, uint32
     return dependence->again && dependence->at == end;
 }
 
-/* Goes through the ring's positions below `end`, twice, as far as the budget goes, a unit each;
- * *used becomes the work. What the search of the class had in the workspace is lost but for its
+/* What a position of the ring is charged: two divisions and more arithmetic, where other units but
+ * look. */
+#define RLVC_DEPENDENCE_UNITS 8u
+
+/* Goes through the ring's positions below `end`, twice, as far as the budget goes; *used becomes
+ * the work. What the search of the class had in the workspace is lost but for its
  * result.
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_dependence_step(rlvc_dependence *dependence, const rlvc_split_input *input,

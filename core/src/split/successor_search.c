@@ -16,8 +16,8 @@
 
 enum { PROPOSE, COUNT, WEIGH, TEST, DONE };
 
-/* What weighing a feature is charged: two tables. */
-#define WEIGH_UNITS 48u
+/* What weighing a feature is charged: three tables. */
+#define WEIGH_UNITS 64u
 
 /* Of each feature of the block. The same number fits on every target, as a snapshot asks for the
  * same blocks. */
@@ -25,7 +25,7 @@ typedef struct tally {
     rlvc_following action; /* of the pair at work */
     rlvc_successor_evidence evidence;
 } tally;
-#define TALLY_WORDS 9u
+#define TALLY_WORDS 11u
 typedef char tally_fits[sizeof(tally) <= TALLY_WORDS * 8u ? 1 : -1];
 
 static tally *tally_of(const rlvc_split_input *input, uint32_t j) {
@@ -51,12 +51,6 @@ static void open_pairs(rlvc_successor_cursor *search, const rlvc_split_input *in
     enter(search, block > 0 ? COUNT : DONE);
 }
 
-static void open_block(rlvc_successor_cursor *search, const rlvc_split_input *input) {
-    uint32_t room = input->space->features_at_once - search->kept;
-    search->room = room < search->room ? room : search->room;
-    enter(search, room > 0 ? PROPOSE : DONE);
-}
-
 static void begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
                   const uint32_t *first, uint32_t pair, uint32_t end) {
     memset(search, 0, sizeof *search);
@@ -68,15 +62,18 @@ static void begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
     search->end = end;
     search->at = first[pair];
     search->samples = first[end] - first[pair];
-    /* Of no samples there are no candidates to be asked for. */
-    search->room = search->view.count > 0 ? input->space->column_words / TALLY_WORDS : 0;
+    /* Those that pass as influenced must have room together, for what lasts. */
+    search->room = input->space->column_words / TALLY_WORDS;
+    if (search->room > input->space->features_at_once)
+        search->room = input->space->features_at_once;
 }
 
 void rlvc_influence_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
                           const uint32_t *first, uint32_t pairs, float log_level) {
     begin(search, input, first, 0, pairs);
     search->log_level = log_level - rlvc_successor_evidence_log_tests(input->domain->features_max);
-    open_block(search, input);
+    /* Of no samples there are no candidates to be asked for. */
+    enter(search, search->view.count > 0 ? PROPOSE : DONE);
 }
 
 void rlvc_lasting_begin(rlvc_successor_cursor *search, const rlvc_split_input *input,
@@ -105,16 +102,15 @@ static rlvc_status count(rlvc_successor_cursor *search, const rlvc_split_input *
     const uint32_t slot = search->view.sample[search->at].slot;
     const void *feature = feature_of(search, input, search->feature);
     uint8_t now = 0, next = 0;
-    rlvc_status status = RLVC_OK;
-    if (rlvc_replay_linked(replay, slot)) {
-        status = rlvc_split_input_exhibits(input, slot, feature, &now);
-        if (status == RLVC_OK)
-            status =
-                rlvc_split_input_exhibits(input, rlvc_replay_next(replay, slot), feature, &next);
-        if (status != RLVC_OK)
-            return status;
-        tally_of(input, search->feature)->action.n[now != 0][next != 0]++;
+    uint32_t then = RLVC_ENDED;
+    rlvc_status status = rlvc_split_input_exhibits(input, slot, feature, &now);
+    if (status == RLVC_OK && rlvc_replay_linked(replay, slot)) {
+        status = rlvc_split_input_exhibits(input, rlvc_replay_next(replay, slot), feature, &next);
+        then = next != 0;
     }
+    if (status != RLVC_OK)
+        return status;
+    tally_of(input, search->feature)->action.n[now != 0][then]++;
     if (++search->feature == search->block) {
         search->feature = 0;
         search->at++;
@@ -233,14 +229,13 @@ static void pass(rlvc_successor_cursor *search, const rlvc_split_input *input, u
             input->space->feature_bytes);
 }
 
-static void close_block(rlvc_successor_cursor *search, const rlvc_split_input *input) {
+static void close_block(rlvc_successor_cursor *search) {
+    const int more = search->block == search->room;
     search->first += search->block;
     search->kept += search->passed;
+    search->room -= search->passed;
     search->passed = 0;
-    if (search->block < search->room)
-        enter(search, DONE);
-    else
-        open_block(search, input);
+    enter(search, more && search->room > 0 ? PROPOSE : DONE);
 }
 
 /* Tests a feature of the block. */
@@ -259,7 +254,7 @@ static void test(rlvc_successor_cursor *search, const rlvc_split_input *input) {
     if (search->feature < search->block)
         return;
     if (influence)
-        close_block(search, input);
+        close_block(search);
     else
         enter(search, DONE);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Aliasing by successors: a class is also aliased if a feature that the agent influences lasts in
  * it, even while all targets are equal. So the tree grows before any reward is found, which matters
- * where rewards are rare. Only interactions that have a next percept count. Two questions are asked
- * of a feature.
+ * where rewards are rare. Two questions are asked of a feature.
  *
  *   influence   in all classes: does its presence in s' depend on the action? A sensor's noise may
  *               stay for a while, cycle, or go along with other noise; but what it becomes does not
@@ -11,13 +10,18 @@
  *               it is noise. That holds at each interaction, whatever came before, so that no
  *               dependence within a trajectory disturbs it. A table is taken apart into tables of
  *               two rows, each action beside those before it (Lancaster 1949).
+ *               What an episode is about, the agent does not influence: a taxi's destination stays.
+ *               But it tells which action ends the episode. So a table is added for each class and
+ *               action, of presence in s by whether there is an s'.
  *   lasting     in one class: does its presence in s' depend on its presence in s, after the same
- *               action? If the class were one situation, it would not. A table for each action.
+ *               action? If the class were one situation, it would not. A table for each action, of
+ *               the interactions that have an s'.
  *
  * The statistics of the tables that have two rows and two columns (rlvc_table_least) are added up,
  * with a degree of freedom each, and the p-value is corrected by the number of features. Those that
- * pass as influenced, at most features_at_once, are the block of all searches for what lasts. Of a
- * class the one with the lowest p-value wins, of equals the earlier.
+ * pass as influenced, at most features_at_once and as many as have room for their counts, are the
+ * block of all searches for what lasts. Of a class the one with the lowest p-value wins, of equals
+ * the earlier.
  *
  * The features are the default oracle's candidates. For F features, N samples, and K that pass, in
  * C classes with A actions, that costs O((F + K) N) calls of exhibits() and O((F + K) C A). */
@@ -59,7 +63,7 @@ void rlvc_lasting_begin(rlvc_successor_cursor *search, const rlvc_split_input *i
                         const uint32_t *first, uint32_t class_id, uint32_t features);
 
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN). Two units
- * for each feature of each sample, 48 for each feature of a pair, RLVC_TEST_UNITS for each
+ * for each feature of each sample, 64 for each feature of a pair, RLVC_TEST_UNITS for each
  * p-value.
  * @param first as at the beginning
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */

@@ -141,7 +141,10 @@ static int is_done(const rlvc_agent *agent) {
         return learner->work.novelty.done;
     if (learner->phase == RLVC_PHASE_MODEL)
         return learner->work.model.done;
-    return learner->work.split.done && rlvc_dependence_done(&learner->dependence, learner->end);
+    if (!RLVC_HAS_DEPENDENCE)
+        return learner->work.split.done;
+    return learner->work.split.done && !learner->dependence.wanted &&
+           rlvc_dependence_done(&learner->dependence, learner->end);
 }
 
 /* What was counted while the phase was under way stays as it was loaded. */
@@ -152,7 +155,7 @@ static void novelty_single(rlvc_agent *agent) {
     (void)rlvc_novelty_step(&agent->learner.work.novelty, &input, &agent->values, &counted, 1);
 }
 
-/* Begins, or looks at a position of the ring. */
+/* Begins, looks at a position of the ring, or weighs what was found. */
 static rlvc_status redo_dependence(rlvc_agent *agent) {
     rlvc_learner *learner = &agent->learner;
     rlvc_split split;
@@ -164,7 +167,9 @@ static rlvc_status redo_dependence(rlvc_agent *agent) {
         learner->dependence.wanted = 1;
         return RLVC_OK;
     }
-    return rlvc_learner_weigh_dependence(agent, feature, 1, &used);
+    if (rlvc_learner_discount(agent))
+        return RLVC_OK;
+    return rlvc_learner_weigh_dependence(agent, feature, RLVC_DEPENDENCE_UNITS, &used);
 }
 
 static rlvc_status single(rlvc_agent *agent) {
@@ -172,7 +177,7 @@ static rlvc_status single(rlvc_agent *agent) {
     rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
     rlvc_target_input successor = rlvc_learner_target_input(agent, RLVC_TARGET_SUCCESSOR);
     rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
-    if (learner->phase == RLVC_PHASE_SEARCH && learner->work.split.done)
+    if (RLVC_HAS_DEPENDENCE && learner->phase == RLVC_PHASE_SEARCH && learner->work.split.done)
         return redo_dependence(agent);
     if (learner->phase == RLVC_PHASE_SEARCH)
         return rlvc_split_search_single(&learner->work.split, &input);

@@ -64,12 +64,13 @@ class Config(Fields):
         Whether to also split a class by a feature that the agent influences and that lasts, even
         while all rewards are equal (residual criterion; a domain whose number of candidates is
         known). None: yes for bits, else no.
-    dependence : bool
+    dependence : bool or None
         Whether, for a feature that is new to the tree, the samples of a class count as fewer if
         both the feature and what it leaves unexplained of the targets stay for long, from one visit
-        to the next: what stays agrees with other things that do by chance. For rewards that drift by
-        themselves. What is drawn once an episode, as the destination of a taxi, takes longer to be
-        found. No effect without ``successors``, which find what the agent influences.
+        to the next: what stays agrees with other things that do by chance, as a lamp that is on for
+        a while with rewards that drift. No effect without ``successors``, which find what the agent
+        influences. None: where ``successors`` are, but not from logs, so that counts, which keep no
+        order, make the same tree of them.
     explore : {"directed", "uniform"}
         How to explore. directed: one action in two leads towards the nearest class-action pair with
         few tries, the other prefers actions with few tries in the class. uniform: every action is
@@ -114,7 +115,7 @@ class Config(Fields):
     solver: Solver = "value_iteration"
     continuing: bool = False
     successors: bool | None = None
-    dependence: bool = False
+    dependence: bool | None = None
     explore: Explore = "directed"
     discount: float = 0.9
     epsilon: float = 0.9

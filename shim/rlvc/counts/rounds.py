@@ -54,9 +54,19 @@ def why_not(domain: Domain, config: Config) -> str:
         return f"solver: {config.solver} depends on the order of interactions, which counts do not keep"
     if config.score == "ranks":
         return "score: ranks are not made from counts yet: use the information gain"
-    if config.dependence and config.successors is not False:
+    if config.dependence is not False and config.successors is not False:
         return "dependence: counts do not keep the order of interactions: set dependence to False"
     return ""
+
+
+def without_order(config: Config) -> Config:
+    """Return a config as counts need it: unless the caller chose otherwise, without dependence.
+
+    Parameters
+    ----------
+    config : Config
+    """
+    return config.replace(dependence=False) if config.dependence is None else config
 
 
 def refuse(agent: Agent) -> None:

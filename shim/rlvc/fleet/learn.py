@@ -40,7 +40,7 @@ def _agent_of(
     source: Source, domain: Domain | int | None, actions: int, seed: int, config: dict[str, Any]
 ) -> Agent:
     settings = default_config(actions, 1, seed, {"capacity": _CAPACITY} | config)
-    agent = Agent(_domain_of(domain, source), settings)
+    agent = Agent(_domain_of(domain, source), rounds.without_order(settings))
     rounds.refuse(agent)
     return agent
 

@@ -207,8 +207,8 @@ def learn_from(
 
     Without a ``capacity``, the replay buffer holds all interactions. But more than half a million
     are counted if what is asked for follows from counts (``core/include/rlvc/counts.h``): of bits,
-    without ``dependence``. That makes the same tree in less time and memory; the replay buffer is
-    then empty. :mod:`rlvc.fleet` learns from what does not fit into memory.
+    without ``dependence``, which is off for all logs unless it is asked for. That makes the same
+    tree in less time and memory; the replay buffer is then empty. :mod:`rlvc.fleet` learns from what does not fit into memory.
     """
     if isinstance(columns, str):
         columns = [columns]
@@ -231,7 +231,7 @@ def learn_from(
         raise ConfigError("domain: goes with the log of a controller: pass space or encoder instead")
     else:
         made, encoder, before, after = encoded(log, encoder, space, thresholds, names)
-    settings = default_config(known.count, len(log), seed, config)
+    settings = rounds.without_order(default_config(known.count, len(log), seed, config))
     by_counts = "capacity" not in config and len(log) > settings.capacity // 2
     if by_counts and rounds.why_not(made, settings):
         settings = settings.replace(capacity=2 * len(log))  # all of it, whatever that takes
