@@ -68,6 +68,14 @@ def test_photographs_are_inputs(project, tmp_path):
     assert run(project, "dev", RLVC_COIL100=str(photographs)) == RAN
 
 
+def test_what_a_stage_exports_is_not_an_input(project):
+    script = (project / "tools/test").read_text(encoding="utf-8")
+    (project / "tools/test").write_text(script.replace("\nclang() {\n", "\nclang() {\n    export RLVC_OWN=1; return\n"),
+                                        encoding="utf-8")
+    assert run(project, "clang") == RAN
+    assert run(project, "clang") == LEFT_OUT
+
+
 def test_what_failed_runs_again(project):
     assert run(project, "dev") == RAN
     (project / "broken").touch()
