@@ -132,11 +132,31 @@ static void test_singular(void **state) {
     assert_true(rlvc_gram_factor(gram, ORDER, 0.0f) < 1e-20f);
 }
 
+/* A Gram matrix may be a difference of two sums: where the target is explained, rounding may leave
+ * less than nothing of its diagonal, or of a column's. */
+static void test_less_than_nothing(void **state) {
+    (void)state;
+    float gram[RLVC_GRAM_FLOATS(ORDER)], work[TERMS], b[TERMS] = {0};
+    draw_rows(6);
+    for (uint32_t r = 0; r < ROWS; r++)
+        rows[r][3] = rows[r][TERMS] = 0.0f;
+    rlvc_gram_clear(gram, ORDER);
+    add_rows(gram, 0, ROWS);
+    gram[RLVC_GRAM_FLOATS(4u) - 1u] = -1e-3f;
+    gram[RLVC_GRAM_FLOATS(ORDER) - 1u] = -1.5e-14f;
+    float left = rlvc_gram_factor(gram, ORDER, 2e-4f);
+    assert_true(left > 0.0f && left < 1e-20f);
+    rlvc_gram_solve(gram, ORDER, work, b);
+    for (uint32_t i = 0; i < TERMS; i++)
+        assert_true(fabsf(b[i]) < 1e-6f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sums),
         cmocka_unit_test(test_ridge_regression),
         cmocka_unit_test(test_singular),
+        cmocka_unit_test(test_less_than_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

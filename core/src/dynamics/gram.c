@@ -12,6 +12,12 @@
 #define COLUMN_LEAST 1e-6f
 #define PIVOT_OF_NOTHING 1e30f
 
+/* The least pivot is positive, whatever the diagonal: of a difference of sums, rounding may leave
+ * less than nothing. */
+static float least_pivot(float diagonal, float share) {
+    return share * (diagonal > 0.0f ? diagonal : 0.0f) + 1e-30f;
+}
+
 void rlvc_gram_clear(float *gram, uint32_t order) {
     for (uint32_t i = 0; i < RLVC_GRAM_FLOATS(order); i++)
         gram[i] = 0.0f;
@@ -52,7 +58,7 @@ float rlvc_gram_factor(float *gram, uint32_t order, float ridge) {
             above += j + 1u;
         }
         int last = i + 1u == order;
-        float least = (last ? PIVOT_LEAST : COLUMN_LEAST) * diagonal + 1e-30f;
+        float least = least_pivot(diagonal, last ? PIVOT_LEAST : COLUMN_LEAST);
         if (left < least)
             left = last ? least : PIVOT_OF_NOTHING;
         row[i] = rlvc_sqrt(left);
