@@ -115,6 +115,30 @@ static void test_it_goes_on(void **state) {
     }
 }
 
+/* After 2^32 - 1 interactions no more are counted; the planner goes on, also from a snapshot. */
+static void test_the_count_ends(void **state) {
+    (void)state;
+    rlvc_config config = short_config();
+    rlvc_store store = empty_store(&first, &config);
+    rlvc_planner *planner = make(&config, memory), *other;
+    player p, q;
+    start(&p, planner, 7);
+    play(&p, 500);
+    uint32_t ahead = UINT32_MAX - 200u - planner->experience.total;
+    planner->experience.total += ahead;
+    planner->fitted += ahead;
+    planner->searched += ahead;
+    play(&p, 600);
+    assert_int_equal(planner->experience.total, UINT32_MAX);
+    assert_int_equal(rlvc_save(as_agent(planner), &store), RLVC_OK);
+    assert_int_equal(load_into(&config, &store, &other), RLVC_OK);
+    q = p;
+    q.planner = other;
+    play(&p, 300);
+    play(&q, 300);
+    assert_same(planner, other);
+}
+
 static void test_before_the_first_percept(void **state) {
     (void)state;
     rlvc_config config = short_config();
@@ -677,6 +701,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_goes_on),
         cmocka_unit_test(test_the_first_version),
+        cmocka_unit_test(test_the_count_ends),
         cmocka_unit_test(test_before_the_first_percept),
         cmocka_unit_test(test_learning_that_is_due),
         cmocka_unit_test(test_the_size_is_enough),
