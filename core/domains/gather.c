@@ -6,12 +6,16 @@
  *
  * How much of a bag is needed is then chosen by the targets, too: of the run many should have it,
  * of the others few. Where nothing lies between them, it is put near the others, since of a thing
- * seen in other ways something is missing. */
+ * seen in other ways something is missing.
+ *
+ * What is chosen so by targets fits them, even if they are noise. So only every second sample is
+ * looked at, and the others must bear the candidate out, or it is refused. */
 #include "rlvc/float_rules.h"
 
 #include "gather.h"
 
 #include "nearest.h"
+#include "rlvc/chi2.h"
 #include "runs.h"
 
 #include <string.h>
@@ -28,6 +32,7 @@
 #define NEARER 4u        /* into the first fourth of a gap */
 #define APART 0.25f      /* of tau^2: nearer vectors are the same */
 #define REFUSED (-1.0f)
+#define LEVEL 0.05f /* of a class of noise that it has a candidate that is borne out */
 
 /* So many of the others count as one of the run; but a share of them at least twice that of the
  * run: where actions' targets ascend, up to half of them are of the same thing. */
@@ -41,6 +46,7 @@ typedef struct parts {
     const rlvc_layout *layout;
     const rlvc_samples *samples;
     uint32_t run[2], all[2];
+    uint32_t half; /* 0: the samples to gather from, of even number; 1: those to bear it out */
 } parts;
 
 typedef struct pool {
@@ -79,29 +85,39 @@ static uint32_t least(uint32_t a, uint32_t b) {
     return a < b ? a : b;
 }
 
+/* How many samples before number `at` are of the half. */
+static uint32_t before(const parts *class_, uint32_t at) {
+    return (at + 1u - class_->half) / 2u;
+}
+
 static uint32_t run_length(const parts *class_) {
-    return class_->run[1] - class_->run[0];
+    return before(class_, class_->run[1]) - before(class_, class_->run[0]);
 }
 
 static uint32_t others(const parts *class_) {
-    return class_->all[1] - class_->all[0] - run_length(class_);
+    return before(class_, class_->all[1]) - before(class_, class_->all[0]) - run_length(class_);
+}
+
+/* Percept number i of the half, of all samples. */
+static const void *of_half(const parts *class_, uint32_t i) {
+    return rlvc_samples_percept(class_->samples, 2u * i + class_->half);
 }
 
 /* Percept number i of n of the run, evenly chosen. */
 static const void *of_run(const parts *class_, uint32_t i, uint32_t n) {
-    return rlvc_samples_percept(class_->samples,
-                                class_->run[0] + (uint32_t)((uint64_t)i * run_length(class_) / n));
+    return of_half(class_, before(class_, class_->run[0]) +
+                               (uint32_t)((uint64_t)i * run_length(class_) / n));
 }
 
 /* Likewise of the others. */
 static const void *of_others(const parts *class_, uint32_t i, uint32_t n) {
-    const uint32_t at = class_->all[0] + (uint32_t)((uint64_t)i * others(class_) / n);
-    return rlvc_samples_percept(class_->samples,
-                                at < class_->run[0] ? at : at + run_length(class_));
+    const uint32_t at =
+        before(class_, class_->all[0]) + (uint32_t)((uint64_t)i * others(class_) / n);
+    return of_half(class_, at < before(class_, class_->run[0]) ? at : at + run_length(class_));
 }
 
-/* Finds run number `run` of those that are not all of their action, and what lies beside it. If
- * there are fewer, returns how many there are; else a number above `run`. */
+/* Finds run number `run` of those to gather from that are not all of their action, and what lies
+ * beside it. If there are fewer, returns how many there are; else a number above `run`. */
 static uint32_t find_parts(uint32_t run, parts *class_) {
     const rlvc_samples *samples = class_->samples;
     uint32_t found = 0, end = 0;
@@ -117,7 +133,7 @@ static uint32_t find_parts(uint32_t run, parts *class_) {
         }
         class_->run[0] = begin;
         class_->run[1] = end;
-        found += others(class_) > 0;
+        found += run_length(class_) > 0 && others(class_) > 0;
     }
     return found;
 }
@@ -270,6 +286,35 @@ static float find_needed(const parts *class_, const rlvc_bag *bag) {
     return best > 0 ? bin * ((float)low + (float)(width - 1u) / (float)NEARER) : REFUSED;
 }
 
+/* ------------------------------------------------------------------ the other half */
+
+/* How likely such a table is, or one farther from independence, if its rows do not differ: the
+ * exact test of a small one. */
+static float chance_of(const uint32_t found[2], const uint32_t measured[2]) {
+    const uint32_t a = found[0], b = measured[0] - a, c = found[1], d = measured[1] - c;
+    float p = 1.0f, statistic = 0.0f;
+    if (rlvc_fisher_table(a, b, c, d, &p, NULL) != RLVC_OK) {
+        (void)rlvc_chi2_table(a, b, c, d, &statistic);
+        (void)rlvc_chi2_survival(statistic, 1u, &p, NULL);
+    }
+    return p;
+}
+
+/* Is a bag more common in the run than in the others, in the half that it was not gathered from?
+ * The p-value is corrected by the number of candidates, and halved as it looks to one side. */
+static int is_borne_out(const parts *class_, const rlvc_bag *bag, float needed) {
+    parts rest = *class_;
+    rest.half = 1u;
+    const uint32_t measured[2] = {least(run_length(&rest), RUN), least(others(&rest), REST)};
+    uint32_t found[2] = {0, 0};
+    for (uint32_t i = 0; i < measured[0]; i++)
+        found[0] += whole_score(&rest, bag, of_run(&rest, i, measured[0])) >= needed;
+    for (uint32_t i = 0; i < measured[1]; i++)
+        found[1] += whole_score(&rest, bag, of_others(&rest, i, measured[1])) >= needed;
+    return found[0] * measured[1] > found[1] * measured[0] &&
+           chance_of(found, measured) * (float)class_->layout->d->candidates < 2.0f * LEVEL;
+}
+
 /* ------------------------------------------------------------------ candidates */
 
 /* As many vectors of a percept as there is room for: not all are of the thing. */
@@ -293,19 +338,24 @@ static void write_feature(const rlvc_layout *layout, const rlvc_bag *bag, float 
 
 static void gather(const parts *class_, uint32_t size, uint32_t number, unsigned char *out) {
     const uint32_t chance = rlvc_scatter(number + 1u);
-    const void *seed =
-        rlvc_samples_percept(class_->samples, class_->run[0] + chance % run_length(class_));
+    const uint32_t length = run_length(class_);
+    const void *seed = of_run(class_, chance % length, length);
+    float needed = REFUSED;
     rlvc_bag bag;
     begin_bag(class_->layout, seed, rlvc_scatter(chance), &bag);
     for (uint32_t round = 0; round < ROUNDS; round++)
         improve(class_, size, chance + round * POOL, &bag);
-    write_feature(class_->layout, &bag, bag.count > 0 ? find_needed(class_, &bag) : REFUSED, out);
+    if (bag.count > 0)
+        needed = find_needed(class_, &bag);
+    if (needed >= 0.0f && !is_borne_out(class_, &bag, needed))
+        needed = REFUSED;
+    write_feature(class_->layout, &bag, needed, out);
 }
 
 int rlvc_gather_candidates(const rlvc_layout *layout, uint32_t size, const rlvc_samples *samples,
                            uint32_t first, uint32_t room, void *features, uint32_t *written) {
     const uint32_t all = layout->d->candidates;
-    parts class_ = {layout, samples, {0, 0}, {0, 0}};
+    parts class_ = {layout, samples, {0, 0}, {0, 0}, 0};
     const uint32_t runs = find_parts(samples->count, &class_);
     uint32_t n = 0;
     for (uint32_t i = 0; i < samples->count; i++)

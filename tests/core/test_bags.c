@@ -278,6 +278,59 @@ static void test_actions(void **state) {
     }
 }
 
+#define MANY 256u
+#define FEW 48u
+
+/* How many of a class's candidates are not refused. Half of its samples have the first of two
+ * targets. What they see is drawn from `things` things, or, if these are two, goes by the target.
+ */
+static uint32_t offered(uint32_t things, uint32_t count) {
+    rlvc_sample sample[MANY];
+    uint32_t written = 0, offers = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t key = 2u * i / count;
+        const uint32_t thing = things == 2u ? key : rlvc_rng_below(&f.rng, things);
+        const uint32_t place = rlvc_rng_below(&f.rng, PERCEPTS / 4u);
+        sample[i] = (rlvc_sample){key, 4u * place + thing};
+    }
+    const rlvc_samples drawn = {(const unsigned char *)f.percepts, sample, f.domain.percept_bytes,
+                                count};
+    assert_int_equal(f.domain.candidates(&bags, &drawn, 0, 64, records, &written), 0);
+    assert_int_equal(written, 16);
+    for (uint32_t j = 0; j < written; j++)
+        offers += rlvc_bags_needed(bag(j)) >= 0.0f;
+    return offers;
+}
+
+/* A candidate of noise is borne out in at most one class of twenty, of a thing always. */
+static void test_noise(void **state) {
+    (void)state;
+    uint32_t classes = 0;
+    open_things(RLVC_DESCRIPTORS_INT8);
+    for (uint32_t i = 0; i < PERCEPTS; i++)
+        see_thing(i, i % 4u, rlvc_rng_below(&f.rng, 2));
+    for (uint32_t round = 0; round < 20u; round++)
+        classes += offered(4, FEW) > 0;
+    assert_true(classes <= 3u);
+    assert_int_equal(offered(2, MANY), 16);
+}
+
+/* A run of one sample is gathered from if it has an even number; what bears it out is missing. */
+static void test_short_runs(void **state) {
+    (void)state;
+    uint32_t written = 0;
+    open_things(RLVC_DESCRIPTORS_INT8);
+    for (uint32_t i = 0; i < PERCEPTS; i++)
+        f.sample[i].key = i;
+    assert_int_equal(f.domain.candidates(&bags, &f.samples, 0, 64, records, &written), 0);
+    assert_int_equal(written, 16);
+    for (uint32_t j = 0; j < written; j++)
+        assert_true(rlvc_bags_needed(bag(j)) < 0.0f);
+    f.samples.count = 2; /* only the first is gathered from, and there are no others */
+    assert_int_equal(f.domain.candidates(&bags, &f.samples, 0, 64, records, &written), 0);
+    assert_int_equal(written, 0);
+}
+
 /* ------------------------------------------------------------------ what is refused */
 
 static void test_damaged_percepts(void **state) {
@@ -402,7 +455,8 @@ int main(void) {
         cmocka_unit_test(test_damaged_percepts), cmocka_unit_test(test_name),
         cmocka_unit_test(test_checks),           cmocka_unit_test(test_ranges),
         cmocka_unit_test(test_learning),         cmocka_unit_test(test_nothing_to_tell),
-        cmocka_unit_test(test_actions),
+        cmocka_unit_test(test_actions),          cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_short_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

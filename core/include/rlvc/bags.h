@@ -45,7 +45,13 @@ RLVC_API rlvc_status rlvc_bags_default(rlvc_bags *bags, uint32_t points, uint32_
  * of one percept, drawn from all targets alike that are not their action's only one. Twice it
  * becomes the vectors that the percepts which have most of it have in common, and percepts with
  * other targets have not; then `needed` is put where it parts those targets best. So a candidate
- * costs O((K + 32) 512 P D), at most.
+ * costs O((2 K + 32) 512 P D), at most.
+ *
+ * Of noise, too, something is always found that fits the targets. So candidates are gathered from
+ * every second sample of the class only, and the others must bear them out: by Fisher's exact test
+ * (of many samples chi-square), corrected by the number of candidates, one class of noise in twenty
+ * has any. The agent tests these as all features, by all samples. Targets that are hardly ever
+ * equal have no candidates: a run of one sample has no second.
  *
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_bags_domain(rlvc_bags *bags, rlvc_domain *domain);

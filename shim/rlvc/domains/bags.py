@@ -20,9 +20,10 @@ class Bags(Descriptors):
     Each vector of a bag that is a distance d < radius away from the nearest of a percept's vectors
     scores radius^2 - d^2. A percept exhibits the feature if the sum is at least what the feature
     needs. Such features survive clutter and covered parts better than the single vectors of
-    :class:`rlvc.Descriptors`; learning takes longer. A bag is gathered by the rewards it is then
-    tested on, so that trees test noise more often than ``alpha`` says: with random rewards 8 % of
-    runs did with 0.01.
+    :class:`rlvc.Descriptors`; learning takes longer. A bag is gathered from every second
+    sample of a class, and refused if the others do not bear it out: with random rewards
+    none of 200 runs tested noise. Many samples of a class must have equal targets, as where rewards
+    are a few numbers; where all differ no bag is found.
 
     Parameters
     ----------
