@@ -7,7 +7,7 @@ learns again and again from a growing database: whatever it splits by is chance.
 probability, at most, that a run grows any test. In the end there is a world of 100 classes to learn: how many trees
 test a bit that has nothing to do with it? With --shift there is something to learn: how soon is it found?
 
-RLVC_TESTING_LIB=build/shipped/core/librlvc_testing.so tests/oracle/false_splits.py
+RLVC_TESTING_LIB=build/dev/core/librlvc_testing.so tests/oracle/false_splits.py
 """
 import argparse
 

@@ -5,7 +5,7 @@
 FrozenLake of 4 x 4 cells that is not slippery: the cell in 4 bits, and beside it bits that have nothing to do
 with it, but are no independent draws. With the defaults a tree has 11 classes, and tests none of these bits.
 
-RLVC_TESTING_LIB=build/shipped/core/librlvc_testing.so tests/oracle/staying_noise.py
+RLVC_TESTING_LIB=build/dev/core/librlvc_testing.so tests/oracle/staying_noise.py
 """
 import argparse
 
