@@ -210,9 +210,10 @@ static inline uint32_t whole_class(const rlvc_solver_cursor *solver, const rlvc_
     const uint32_t pairs = pairs_of(solver, values);
     const uint32_t *begin =
         values->begin.transition + rlvc_values_pair(values, solver->class_id, solver->action);
+    if (!EVALUATES(solver) && solver->action > 0)
+        return 0; /* in its midst: of the last class there are not that many pairs from here on */
     const uint32_t units = begin[pairs] - begin[0] + pairs;
-    const int at_beginning = EVALUATES(solver) || solver->action == 0;
-    return at_beginning && solver->transition == begin[0] && budget >= units ? units : 0u;
+    return solver->transition == begin[0] && budget >= units ? units : 0u;
 }
 
 /* Backs up the greedy action of the class at work. @return that. */
