@@ -226,7 +226,8 @@ def cab():
     return Task(
         "cab", f"asked: a return of {wanted}; all in one number, whose bits mix row, column, passenger "
         "and destination", 0.99, 30000, lambda seed: _taxi(), look,
-        (Bar("return after 30,000 interactions, median", median("value"), wanted, True),), world, peers=(),
+        (Bar("return after 30,000 interactions, median", median("value"), wanted, True),), world,
+        peers=(),
     )  # fmt: skip
 
 
@@ -404,7 +405,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander, grid,
-    far, nothing, wander, changing,
+    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander,
+    grid, far, nothing, wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}

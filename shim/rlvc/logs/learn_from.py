@@ -208,7 +208,8 @@ def learn_from(
     Without a ``capacity``, the replay buffer holds all interactions. But more than half a million
     are counted if what is asked for follows from counts (``core/include/rlvc/counts.h``): of bits,
     without ``dependence``, which is off for all logs unless it is asked for. That makes the same
-    tree in less time and memory; the replay buffer is then empty. :mod:`rlvc.fleet` learns from what does not fit into memory.
+    tree in less time and memory; the replay buffer is then empty. :mod:`rlvc.fleet` learns from what
+    does not fit into memory.
     """
     if isinstance(columns, str):
         columns = [columns]
