@@ -6,13 +6,15 @@
 #ifndef RLVC_TESTS_FORGED_SNAPSHOT_H
 #define RLVC_TESTS_FORGED_SNAPSHOT_H
 
+#ifndef CAPACITY
+#define CAPACITY 16u
 #define STORE_BYTES 4096u
+#endif
 #include "forged_store.h"
 #include "rlvc/export.h"
 #include "rlvc/policy.h"
 #include "world.h"
 
-#define CAPACITY 16u
 #define CONFIGS 16u
 #define SLICES 32u
 
@@ -47,7 +49,7 @@ static void save(const rlvc_config *config, const rlvc_domain *domain, uint32_t 
         must(rlvc_agent_init(config, domain, memory, sizeof memory, &agent) == RLVC_OK);
         world_percept(domain, cell, percept);
         must(rlvc_begin(agent, percept) == RLVC_OK);
-        for (uint32_t i = 0; i < 20u; i++) {
+        for (uint32_t i = 0; i < CAPACITY + 4u; i++) {
             rlvc_choice action;
             must(rlvc_act(agent, &action) == RLVC_OK);
             world_step(agent, domain, &cell, action);

@@ -5,6 +5,7 @@
 #define RLVC_TESTS_WORLD_H
 
 #include "must.h"
+#include "rlvc/bags.h"
 #include "rlvc/bits.h"
 #include "rlvc/spatial.h"
 #include "rlvc/thresholds.h"
@@ -13,6 +14,7 @@
 
 #define CELLS 16u
 #define PERCEPT_MAX 32u /* bytes */
+#define WORLD_BAGS 100u /* beside RLVC_DOMAIN_*: bags have no kind of their own */
 
 /* ------------------------------------------------------------------ a domain of one's own */
 
@@ -42,13 +44,14 @@ static inline int own_name(void *ctx, const void *feature, char *text, uint32_t 
     return 0;
 }
 
-/* ------------------------------------------------------------------ all five */
+/* ------------------------------------------------------------------ all six */
 
-/* A domain of a kind (RLVC_DOMAIN_*), of which there are two variants. */
+/* A domain of a kind (RLVC_DOMAIN_* or WORLD_BAGS), of which there are two variants. */
 static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
     static rlvc_thresholds thresholds;
     static rlvc_descriptors descriptors;
     static rlvc_spatial spatial;
+    static rlvc_bags bags;
     rlvc_domain domain;
     memset(&domain, 0, sizeof domain);
     if (kind == RLVC_DOMAIN_BITS) {
@@ -73,6 +76,12 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
         spatial.vectors.draws = 2;
         spatial.pairs = 4;
         must(rlvc_spatial_domain(&spatial, &domain) == RLVC_OK);
+    } else if (kind == WORLD_BAGS) {
+        must(rlvc_bags_default(&bags, 2, 2,
+                               variant ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT,
+                               3.0f) == RLVC_OK);
+        bags.size = 4;
+        must(rlvc_bags_domain(&bags, &domain) == RLVC_OK);
     } else {
         domain.percept_bytes = 1;
         domain.feature_bytes = 1;
@@ -84,6 +93,12 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
     return domain;
 }
 
+/* Are percepts vectors? Those of the domain of one's own are a byte. */
+static inline int sees_vectors(const rlvc_domain *domain) {
+    return domain->kind == RLVC_DOMAIN_DESCRIPTORS || domain->kind == RLVC_DOMAIN_SPATIAL ||
+           (domain->kind == RLVC_DOMAIN_OWN && domain->percept_bytes > 1u);
+}
+
 /* What a cell looks like. */
 static inline void world_percept(const rlvc_domain *domain, uint32_t cell,
                                  unsigned char percept[PERCEPT_MAX]) {
@@ -93,7 +108,7 @@ static inline void world_percept(const rlvc_domain *domain, uint32_t cell,
     must(domain->percept_bytes <= PERCEPT_MAX);
     if (domain->kind == RLVC_DOMAIN_THRESHOLDS) {
         memcpy(percept, place, sizeof place);
-    } else if (domain->kind == RLVC_DOMAIN_DESCRIPTORS || domain->kind == RLVC_DOMAIN_SPATIAL) {
+    } else if (sees_vectors(domain)) {
         memcpy(percept, &points, sizeof points);
         if (((const rlvc_descriptors *)domain->ctx)->form == RLVC_DESCRIPTORS_FLOAT) {
             memcpy(percept + 4, place, sizeof place);
@@ -108,14 +123,20 @@ static inline void world_percept(const rlvc_domain *domain, uint32_t cell,
     }
 }
 
-/* One interaction that begins in *cell: the last cell pays and ends the episode. */
+/* The last cell pays. To gather a bag takes more samples of a kind: there half of the cells pay. */
+static inline float world_reward(const rlvc_domain *domain, uint32_t cell) {
+    const int bags = domain->kind == RLVC_DOMAIN_OWN && sees_vectors(domain);
+    return cell == CELLS - 1u || (bags && cell < CELLS / 2u) ? 1.0f : 0.0f;
+}
+
+/* One interaction that begins in *cell; the last cell ends the episode. */
 static inline void world_step(rlvc_agent *agent, const rlvc_domain *domain, uint32_t *cell,
                               rlvc_choice choice) {
     unsigned char percept[PERCEPT_MAX];
     *cell = (*cell + (choice.action ? 1u : CELLS - 1u)) % CELLS;
     uint8_t end = *cell == CELLS - 1u ? RLVC_TERMINATED : RLVC_GOES_ON;
     world_percept(domain, *cell, percept);
-    rlvc_status status = rlvc_observe(agent, choice, end ? 1.0f : 0.0f, percept, end);
+    rlvc_status status = rlvc_observe(agent, choice, world_reward(domain, *cell), percept, end);
     must(status == RLVC_OK || status == RLVC_E_BUSY);
     if (end == RLVC_TERMINATED || status == RLVC_E_BUSY) {
         *cell = (*cell * 5u + 3u) % (CELLS - 1u);
