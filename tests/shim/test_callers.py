@@ -26,7 +26,7 @@ class Line(gymnasium.Env):
         return self.seen(0), {}
 
     def step(self, action):
-        self.place = min(7, max(0, self.place + 2 * int(action) - 1))
+        self.place = min(7, max(0, self.place + 2 * int(np.ravel(action)[0]) - 1))
         return self.seen(self.place), float(self.place == 7), self.place == 7, False, {}
 
 
@@ -77,6 +77,63 @@ def test_environments_that_cannot_be_made(env):
 def test_what_is_no_run(run):
     with pytest.raises(errors.ConfigError, match=r"run: .* is not a run"):
         rlvc.learn(Line(), 10, run=run)
+
+
+def box(low, high, *shape):
+    return spaces.Box(low, high, shape, np.float32)
+
+
+@pytest.mark.parametrize(
+    ("actions", "other", "bins"),
+    [
+        (spaces.Discrete(2), spaces.Discrete(3), None),
+        (spaces.Discrete(3), spaces.Discrete(2), None),
+        (spaces.Discrete(2), spaces.Discrete(2, start=1), None),
+        (spaces.Discrete(4), spaces.MultiBinary(2), None),
+        (spaces.MultiBinary(2), spaces.Discrete(4), None),
+        (spaces.MultiBinary(2), spaces.MultiBinary(3), None),
+        (spaces.MultiDiscrete([2, 3]), spaces.MultiDiscrete([3, 2]), None),
+        (box(-1, 1, 1), box(-0.5, 1, 1), 3),
+        (box(-1, 1, 1), box(-1, 1, 2), 3),
+        (spaces.Discrete(3), box(-1, 1, 1), None),
+        (box(-1, 1, 1), spaces.Discrete(3), 3),
+    ],
+    ids=str,
+)
+def test_a_run_goes_on_with_its_own_actions_only(actions, other, bins):
+    def line(space):
+        env = Line()
+        env.action_space = space
+        return env
+
+    run = rlvc.learn(line(actions), 30, bins=bins)
+    assert run.learn(line(actions), 30).interactions == 60
+    with pytest.raises(errors.ConfigError, match=r"^run: its .* actions, .* are not those of .*: begin"):
+        run.learn(line(other), 30)
+    assert run.interactions == 60
+
+
+@pytest.mark.parametrize(
+    ("seen", "other"),
+    [
+        (spaces.Discrete(4), spaces.Discrete(5)),
+        (spaces.Discrete(4), spaces.Discrete(4, start=1)),
+        (spaces.Discrete(4), spaces.MultiBinary(2)),
+        (box(-1, 4, 2), box(-1, 4, 3)),
+        (box(-1, 4, 1), spaces.Discrete(4)),
+        (spaces.Discrete(4), spaces.Dict(place=spaces.Discrete(4))),
+    ],
+    ids=str,
+)
+def test_a_run_goes_on_with_its_own_observations_only(seen, other):
+    def line(space):
+        return Line(space, seen=lambda place: np.full(space.shape or (), 1 + place % 3, np.int64))
+
+    run = rlvc.learn(line(seen), 30)
+    assert run.learn(line(seen), 30).interactions == 60
+    with pytest.raises(errors.ConfigError, match=r"^run: its observations, .* not those of .*: begin"):
+        run.learn(line(other), 30)
+    assert run.interactions == 60
 
 
 def test_numbers_beyond_any_float():

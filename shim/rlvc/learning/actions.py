@@ -85,6 +85,39 @@ class Actions:
         """Whether the names are the numbers of the tree."""
         return self.table is None and self.start == 0 and not self.words
 
+    def fit(self, space: Any) -> bool:
+        """Whether these are all actions of a space, or of a Box some within its bounds.
+
+        Parameters
+        ----------
+        space : gymnasium.Space
+
+        Returns
+        -------
+        bool
+            Words, which a log may have, are not looked for: True.
+
+        Raises
+        ------
+        SpaceError
+            The space is of another kind, or there are more than 255 actions.
+        """
+        from gymnasium import spaces
+
+        if self.words:
+            return True
+        if isinstance(space, spaces.Box):
+            table = self.table
+            return (
+                table is not None
+                and table.shape[1:] == space.shape
+                and bool(((table >= space.low) & (table <= space.high)).all())
+            )
+        other = actions_of(space)
+        if other.table is None or self.table is None:
+            return other.table is self.table and (other.count, other.start) == (self.count, self.start)
+        return np.array_equal(other.table, self.table)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the actions, for JSON."""
         table = None if self.table is None else self.table.tolist()

@@ -224,6 +224,25 @@ class Encoder:
         shifts = np.cumsum([0, *(part.width for part in parts)]).tolist()
         self._shifted = list(zip(parts, shifts[:-1], strict=True))
 
+    def fits(self, space: Any) -> bool:
+        """Whether it encodes the observations of a space as it was made to.
+
+        Parameters
+        ----------
+        space : gymnasium.Space, or one of the spaces of logs in this module
+
+        Returns
+        -------
+        bool
+            An encoder of a table takes rows of any space, and looks at each as it comes: True.
+
+        Raises
+        ------
+        SpaceError
+            A part of the space cannot be encoded.
+        """
+        return bool(self._columns) or _parts(space) == self._parts
+
     def to_json(self) -> str:
         """Return what the encoder was made of, as JSON; :meth:`from_json` makes it again."""
         made_of = {

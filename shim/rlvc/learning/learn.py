@@ -176,7 +176,8 @@ def learn(
         Called with the run after each learning step; :mod:`rlvc.learning.callbacks` has some.
         Learning ends if one returns True.
     run : Run or None
-        A run to go on with: it keeps its learner, encoder, actions and config.
+        A run to go on with: it keeps its learner, encoder, actions and config. The environment must
+        have the same spaces.
     **config
         Fields of :class:`Config`, or with a planner of :class:`PlannerConfig`. Defaults that differ:
         ``capacity`` holds all interactions (at most a million) and, of an agent, ``classes`` is 512,
@@ -192,7 +193,8 @@ def learn(
     SpaceError
         The actions are not finite, or the observations cannot be encoded.
     ConfigError
-        A field of the config, ``interactions``, ``every`` or ``method`` is out of range.
+        A field of the config, ``interactions``, ``every`` or ``method`` is out of range; or a run's
+        spaces are not those of the environment.
     EnvError, RewardError, PerceptError
         The environment returned a value that Gymnasium's interface does not allow. The message
         names the interaction, the episode and the value.
@@ -211,6 +213,7 @@ def learn(
     stream = Environment(env)
     if run is not None:
         _need_same(run, [encoder, names, bins, method, *config.values()], hold)
+        _need_fit(run, stream)
     else:
         actions = actions_of(stream.action_space, bins, hold)
         if encoder is None:
@@ -262,6 +265,20 @@ def _need_same(run: Run, given: list[Any], hold: int) -> None:
         raise ConfigError("run: a policy by itself cannot learn on")
     if run.encoder is None:
         raise ConfigError("run: it learnt from percepts, and has no encoder for observations")
+
+
+def _need_fit(run: Run, stream: Environment) -> None:
+    """Raise ConfigError if a run learnt other actions or observations than the environment's."""
+    if not run.actions.fit(stream.action_space):
+        raise ConfigError(
+            f"run: its {run.actions.count} actions, {run.actions.name(0)} and so on, are not those of "
+            f"{stream.action_space!s:.80}: begin a new run"
+        )
+    if isinstance(run.encoder, Encoder) and not run.encoder.fits(stream.observation_space):
+        raise ConfigError(
+            f"run: its observations, {len(run.encoder.elements)} numbers, are not those of "
+            f"{stream.observation_space!s:.80}: begin a new run"
+        )
 
 
 def _begun(
