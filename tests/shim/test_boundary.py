@@ -110,6 +110,23 @@ def test_the_place_is_counted():
         rlvc.learn(Ring(reward=reward), 100, seed=1)
 
 
+@pytest.mark.parametrize("copies", [1, 3])
+def test_an_evaluation_names_the_place(copies):
+    """Episodes of five steps; environments of a vector reset in a step of its own."""
+
+    def reward(value, calls=[]):  # noqa: B006
+        calls.append(1)
+        return None if len(calls) == 13 * copies else value
+
+    run = rlvc.learn(Ring(), 100, seed=1)
+    env, said = Ring(reward=reward), "episode 2, step 2"
+    if copies > 1:
+        env = gymnasium.vector.SyncVectorEnv([lambda: Ring(reward=reward)] * copies)
+        said = "episode 6, step 14"
+    with pytest.raises(errors.Error, match=f"^{said}: "):
+        run.evaluate(env, 100)
+
+
 @pytest.mark.parametrize("value", [0, (0, 1), None, (0,), (0, {}, 1)])
 def test_a_reset_that_returns_something_else(value):
     with pytest.raises(errors.EnvError, match=r"reset\(\) returned"):

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import whole
-from ..errors import ConfigError
+from ..errors import ConfigError, Error
 from .environment import Environment
 from .masks import best_allowed, warn
 
@@ -57,6 +57,14 @@ class Evaluation:
         return f"{self.mean:.4g} +- {self.std:.4g} ({count} episode{'s' * (count != 1)}{cut})"
 
 
+@dataclasses.dataclass
+class _Place:
+    """Where playing is, from 0 on, for errors; of a vector, how many episodes ended."""
+
+    episode: int = 0
+    step: int = 0
+
+
 def evaluate(run: Run, env: Any, episodes: int, seed: int, max_steps: int) -> Evaluation:
     """Play episodes: see :meth:`rlvc.Run.evaluate`."""
     episodes = whole("episodes", episodes, 1, 2**53)
@@ -67,17 +75,25 @@ def evaluate(run: Run, env: Any, episodes: int, seed: int, max_steps: int) -> Ev
         raise ConfigError("evaluate: a run on percepts has no encoder for observations")
     stream.start(run.actions, seed)
     play = _play_all if stream.vector else _play
-    evaluation = play(run, stream, episodes, max_steps)
+    place = _Place()
+    try:
+        evaluation = play(run, stream, episodes, max_steps, place)
+    except Error as error:
+        error.args = (f"episode {place.episode}, step {place.step}: {error}",)
+        raise
     if not stream.masked:
         warn(run)
     return evaluation
 
 
-def _play(run: Run, stream: Environment, episodes: int, max_steps: int) -> Evaluation:
+def _play(
+    run: Run, stream: Environment, episodes: int, max_steps: int, place: _Place
+) -> Evaluation:
     returns, lengths, cut = [], [], 0
-    for _ in range(episodes):
+    for place.episode in range(episodes):
         total, length, over = 0.0, 0, False
         while not over and length < max_steps:
+            place.step = length
             percept = run.percept(stream.current)
             action = run.index(percept)
             if stream.masks is not None:
@@ -92,7 +108,9 @@ def _play(run: Run, stream: Environment, episodes: int, max_steps: int) -> Evalu
     return Evaluation(np.array(returns), np.array(lengths), cut)
 
 
-def _play_all(run: Run, stream: Environment, episodes: int, max_steps: int) -> Evaluation:
+def _play_all(
+    run: Run, stream: Environment, episodes: int, max_steps: int, place: _Place
+) -> Evaluation:
     """Play with a vector: each environment its share, so that short episodes do not count more.
 
     An environment whose episode is cut off plays no more, as it cannot be reset by itself.
@@ -110,6 +128,7 @@ def _play_all(run: Run, stream: Environment, episodes: int, max_steps: int) -> E
             for i, mask in enumerate(stream.masks):
                 chosen[i] = best_allowed(run, percepts[i], int(chosen[i]), mask)
         dead = stream.dead
+        place.episode = sum(len(done) for done in returns)
         _, rewards, terminated, truncated = stream.step_all(chosen)
         sums[~dead] += rewards[~dead]
         steps[~dead] += 1
@@ -122,6 +141,7 @@ def _play_all(run: Run, stream: Environment, episodes: int, max_steps: int) -> E
                     cut += 1
                     share[i] = len(returns[i])
             sums[i], steps[i] = 0.0, 0
+        place.step += 1
     return Evaluation(
         np.array([value for done in returns for value in done]),
         np.array([value for done in lengths for value in done]),

@@ -339,7 +339,9 @@ class Run:
         ConfigError
             ``episodes`` or ``max_steps`` is not at least 1, or ``seed`` not at least 0.
         EnvError, RewardError, PerceptError
-            The environment returned something else than Gymnasium's interface says.
+            The environment returned something else than Gymnasium's interface says. The message
+            names the episode and its step, both from 0 on; of a vector, how many episodes had ended
+            and the vector's step.
 
         Notes
         -----
