@@ -267,6 +267,29 @@ def test_where_a_log_is_converted_to(changes, error, said, tmp_path, monkeypatch
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == ["file"]
 
 
+def bits_log(bits):
+    seen = np.random.default_rng(bits).random((41, bits)) < 0.5
+    return {
+        "observations": seen[:-1], "next_observations": seen[1:], "actions": np.arange(40) % 2,
+        "rewards": np.ones(40), "terminated": np.zeros(40, bool), "truncated": np.arange(40) == 39,
+    }  # fmt: skip
+
+
+def test_a_fleet_of_as_many_bits_as_the_log(tmp_path):
+    """A log of whole bytes may be a controller's, which has bits to spare."""
+    from rlvc import fleet
+
+    for bits, good in ((5, {5}), (13, {13}), (8, set(range(1, 9)))):
+        fleet.convert(bits_log(bits), tmp_path / str(bits), actions=2)
+        for domain in range(1, 20):
+            if domain in good:
+                assert fleet.learn_from(tmp_path / str(bits), domain=domain).agent.domain.bits == domain
+                continue
+            said = f"domain: {domain} bits, but the log's percepts have {bits}"
+            with pytest.raises(errors.ConfigError, match=said):
+                fleet.learn_from(tmp_path / str(bits), domain=domain)
+
+
 @pytest.mark.parametrize("changes", [{"workers": 0}, {"workers": "x"}, {"checkpoint": 3}], ids=str)
 def test_how_a_fleet_learns(changes, tmp_path):
     from rlvc import fleet

@@ -31,7 +31,9 @@ def _domain_of(domain: Domain | int | None, source: Source) -> Domain:
     if domain is None:
         return Bits(source.bits)
     made = Bits(domain) if isinstance(domain, int) else domain
-    if isinstance(made, Bits) and -(-made.bits // 8) != -(-source.bits // 8):
+    # A log of whole bytes may be a controller's, whose last byte has bits to spare.
+    spare = 7 if source.bits % 8 == 0 else 0
+    if isinstance(made, Bits) and not source.bits - spare <= made.bits <= source.bits:
         raise ConfigError(f"domain: {made.bits} bits, but the log's percepts have {source.bits}")
     return made
 
