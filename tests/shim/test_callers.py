@@ -290,6 +290,37 @@ def test_a_fleet_of_as_many_bits_as_the_log(tmp_path):
                 fleet.learn_from(tmp_path / str(bits), domain=domain)
 
 
+@pytest.mark.parametrize("address", [True, False], ids=["address", "folder"])
+@pytest.mark.parametrize("fault", [KeyboardInterrupt, OSError, MemoryError])
+def test_a_conversion_that_is_interrupted_leaves_whole_files(address, fault, tmp_path, monkeypatch):
+    """Whatever fails, in the midst of the second file: the first is there, or the old one."""
+    from rlvc import fleet
+    from rlvc.fleet import layout
+
+    pytest.importorskip("fsspec")
+    import fsspec
+    from pyarrow import fs
+
+    where = (fs.PyFileSystem(fs.FSSpecHandler(fsspec.filesystem("file"))), str(tmp_path / "log"))
+    if address:
+        monkeypatch.setattr(sys.modules["rlvc.fleet.convert"], "filesystem_of", lambda _folder: where)
+    names = fleet.convert(log(), tmp_path / "log", actions=2, file_rows=5)
+    old = {path.name: path.read_bytes() for path in (tmp_path / "log").iterdir()}
+    assert len(names) == len(old) > 2
+    write, written = layout.Writer.write, []
+
+    def fails(self, *columns):
+        write(self, *columns)
+        written.append(1)
+        if len(written) == 2:
+            raise fault("planted")
+
+    monkeypatch.setattr(layout.Writer, "write", fails)
+    with pytest.raises((fault, errors.StoreError)):
+        fleet.convert(log(), tmp_path / "log", actions=2, file_rows=5)
+    assert {path.name: path.read_bytes() for path in (tmp_path / "log").iterdir()} == old
+
+
 @pytest.mark.parametrize("changes", [{"workers": 0}, {"workers": "x"}, {"checkpoint": 3}], ids=str)
 def test_how_a_fleet_learns(changes, tmp_path):
     from rlvc import fleet

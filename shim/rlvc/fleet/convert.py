@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import secrets
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -75,6 +77,11 @@ def convert(
         An argument is out of range.
     StoreError
         The folder or a file in it cannot be written.
+
+    Notes
+    -----
+    Each file is written as a whole or not at all, also if writing fails or is interrupted; those
+    before it are there.
     """
     file_rows = whole("file_rows", file_rows, 1, 2**31)
     if not isinstance(folder, str | Path) or not str(folder):
@@ -106,13 +113,30 @@ def _written(
     for number, some in enumerate(_episodes(all_of_it.ends, file_rows)):
         exploited = None if choices is None else choices[some]
         name = f"{prefix}-{number:05d}.parquet"
-        writer = layout.Writer(
-            f"{within}/{name}", bits, count, exploited is not None, filesystem=filesystem
-        )
+        content = io.BytesIO()
+        writer = layout.Writer(content, bits, count, exploited is not None)
         writer.write(_cut(all_of_it, some), exploited)
         writer.close()
+        _put(filesystem, f"{within}/{name}", content.getvalue())
         names.append(f"{folder.rstrip('/')}/{name}")
     return names
+
+
+def _put(filesystem: Any, path: str, content: bytes) -> None:
+    """Write a file so that it is there as a whole or not at all."""
+    if isinstance(filesystem, layout.arrow().fs.LocalFileSystem):
+        replace(path, content)
+        return
+    where, _, name = path.rpartition("/")
+    temporary = f"{where}/.rlvc-{secrets.token_hex(8)}-{name}.new"
+    try:
+        with filesystem.open_output_stream(temporary) as stream:
+            stream.write(content)
+        filesystem.move(temporary, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            filesystem.delete_file(temporary)
+        raise
 
 
 def _cut(columns: Columns, some: slice) -> Columns:
