@@ -139,6 +139,32 @@ static void test_the_count_ends(void **state) {
     assert_same(planner, other);
 }
 
+/* A forged model may hold finite numbers of which a prediction is none: inf - inf. Searches end. */
+static void test_predictions_that_are_no_numbers(void **state) {
+    (void)state;
+    rlvc_config config = short_config();
+    rlvc_planner *planner = make(&config, memory);
+    player p;
+    start(&p, planner, 5);
+    play(&p, 400);
+    for (uint32_t round = 0; round < 30; round++) {
+        for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++) {
+            rlvc_dynamics *model = planner->model + k;
+            for (uint32_t i = 0; i < model->basis.components; i++) {
+                float *b = rlvc_model_tree_coefficients(model->tree + i, 0);
+                model->basis.scale[i] = 1e-30f;
+                b[1] = 1e30f;
+                b[2] = -1e30f;
+                rlvc_model_tree_coefficients(model->tree + model->basis.components, 0)[i + 1u] =
+                    i ? 1e30f : -1e30f;
+            }
+        }
+        assert_true(rlvc_planner_is_sound(planner));
+        play(&p, 13);
+        assert_true(rlvc_planner_is_sound(planner));
+    }
+}
+
 static void test_before_the_first_percept(void **state) {
     (void)state;
     rlvc_config config = short_config();
@@ -701,6 +727,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_goes_on),
         cmocka_unit_test(test_the_first_version),
+        cmocka_unit_test(test_predictions_that_are_no_numbers),
         cmocka_unit_test(test_the_count_ends),
         cmocka_unit_test(test_before_the_first_percept),
         cmocka_unit_test(test_learning_that_is_due),

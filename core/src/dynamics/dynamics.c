@@ -261,8 +261,9 @@ uint32_t rlvc_dynamics_fit_step(rlvc_dynamics_fit_cursor *fit, uint32_t budget) 
 
 /* ------------------------------------------------------------------ the model's answer */
 
+/* Also of a forged model's x that is no number. */
 static float clamp(float x, float low, float high) {
-    return x < low ? low : x > high ? high : x;
+    return !(x >= low) ? low : x > high ? high : x;
 }
 
 /* Nearly normal: the sum of four uniform numbers, of deviation 1. */

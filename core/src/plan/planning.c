@@ -281,7 +281,7 @@ static void decide(rlvc_planner *planner) {
     enter(planner, SEARCH);
     planner->searches++;
     planner->searched = planner->experience.total;
-    planner->planning.candidate_value = -3e38f;
+    planner->planning.candidate.nodes = 0; /* there is none: of the first search any is one */
     planner->planning.tries = 0;
     planner->planning.derives = archive->count > 0;
     if (planner->searches == 1u || planner->counter % SCRATCH_EVERY == 0)
@@ -326,7 +326,7 @@ static uint32_t search(rlvc_planner *planner, uint32_t budget) {
         return spent;
     planner->candidates += search->tried;
     float value = priced(search->best, search->tree.leaves);
-    if (value > planning->candidate_value) {
+    if (planning->candidate.nodes == 0 || value > planning->candidate_value) {
         planning->candidate_value = value;
         planning->candidate = search->tree;
         planning->derived = planning->derives;
