@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/eva"
-MOST = {"base": 0, "tree": 0, "stats": 3, "act": 0, "log": 9, "export": 15, "store": 3}
+MOST = {"base": 0, "tree": 0, "stats": 3, "act": 0, "log": 9, "export": 6, "store": 3}
 # More makes fewer alarms and takes longer.
 PRECISION = {"log": 1, "store": 2}
 RELATIONS = ("-eva-domains", "octagon")  # between two numbers

@@ -57,7 +57,7 @@ static uint32_t action_at(const exporter *e, uint32_t index) {
     uint32_t node = 0;
     while (rlvc_compact_is_mixed(&e->c, node)) {
         uint32_t at = 0;
-        while (e->bit[at] != bit_of(e, node))
+        while (at + 1u < e->used && e->bit[at] != bit_of(e, node)) /* it is one of them */
             at++;
         node = e->c.tree->node[node] + (index >> at & 1u);
     }

@@ -33,10 +33,11 @@ typedef struct wide {
 } wide;
 
 static void normalize(wide *x) {
-    while (!(x->mantissa >> 63)) {
-        x->mantissa <<= 1;
-        x->exponent--;
-    }
+    for (uint32_t shift = 32; shift > 0; shift /= 2u)
+        if (x->mantissa < UINT64_C(1) << (64u - shift)) {
+            x->mantissa <<= shift;
+            x->exponent -= (int32_t)shift;
+        }
 }
 
 static wide widen(uint32_t bits) {
@@ -48,13 +49,20 @@ static wide widen(uint32_t bits) {
     return x;
 }
 
-/* The integer part of x, which must be below 2^63 but may have any fraction. */
+/* The integer part of x, or the highest number if x is 2^63 or more. */
 static uint64_t truncated(const wide *x) {
+    if (x->exponent > -1)
+        return UINT64_MAX;
     return x->exponent > -64 ? x->mantissa >> -x->exponent : 0;
 }
 
 #define EXACT_DIGITS 16u
 static const uint64_t exact_low = 1000000000000000u; /* the least number of so many digits */
+
+/* The highest float takes so many divisions by ten, and the lowest so many products, to have them
+ * before its point. */
+#define DIVISIONS_MAX 23u
+#define PRODUCTS_MAX 60u
 
 /* The decimal digits of a positive float: an integer of EXACT_DIGITS digits, of which the first
  * stands for 10^*power. Scaling by ten loses less than 2^-60 a time, so that the result is within
@@ -62,18 +70,23 @@ static const uint64_t exact_low = 1000000000000000u; /* the least number of so m
 static uint64_t decimal(uint32_t bits, int32_t *power) {
     wide x = widen(bits);
     *power = (int32_t)EXACT_DIGITS - 1;
-    while (x.exponent > -1 || truncated(&x) >= exact_low * 10u) { /* x := x / 10 */
-        x.mantissa /= 10u;
-        normalize(&x);
-        (*power)++;
-    }
-    while (truncated(&x) < exact_low) { /* x := x * 10 */
-        x.mantissa = (x.mantissa >> 4) * 10u;
-        x.exponent += 4;
-        normalize(&x);
-        (*power)--;
-    }
-    return truncated(&x) + (x.mantissa >> (-x.exponent - 1) & 1u);
+    //@ loop unroll DIVISIONS_MAX;
+    for (uint32_t i = 0; i < DIVISIONS_MAX; i++)
+        if (truncated(&x) >= exact_low * 10u) {
+            x.mantissa /= 10u;
+            normalize(&x);
+            (*power)++;
+        }
+    //@ loop unroll PRODUCTS_MAX;
+    for (uint32_t i = 0; i < PRODUCTS_MAX; i++)
+        if (truncated(&x) < exact_low) {
+            x.mantissa = (x.mantissa >> 4) * 10u;
+            x.exponent += 4;
+            normalize(&x);
+            (*power)--;
+        }
+    x.exponent++; /* to round by the bit after the point */
+    return (truncated(&x) + 1u) / 2u;
 }
 
 /* Rounds these digits to the fewest that read back as the float, or to `digits`: returns an integer
@@ -81,10 +94,11 @@ static uint64_t decimal(uint32_t bits, int32_t *power) {
  * is half as long below a power of two. */
 static uint64_t fewest(uint64_t exact, uint32_t bits, uint32_t digits, uint32_t *count) {
     const uint32_t fraction = bits & 0x7fffffu;
-    const uint32_t mantissa = fraction | (bits >> 23 > 0 ? 0x800000u : 0u);
-    const uint64_t half = exact / (fraction > 0 ? 2u * mantissa : 4u * mantissa) - 8u;
+    const uint32_t mantissa = fraction + (bits >> 23 > 0 ? 0x800000u : 0u);
+    const uint64_t half = exact / (fraction > 0 ? 2u * mantissa : 4u * 0x800000u) - 8u;
     uint64_t unit = exact_low * 10u, rounded, off;
     *count = 0;
+    //@ loop unroll 9;
     do {
         unit /= 10u;
         (*count)++;
@@ -101,13 +115,14 @@ static uint64_t ten_to(uint32_t power) {
     return ten;
 }
 
-/* The digits of `whole` into text[0 .. count - 1], without the zeros at the end; returns their
- * number. */
+/* The digits of `whole`, which has `count`, without the zeros at its end; returns their number. */
 static uint32_t spell(uint64_t whole, uint32_t count, char *digit) {
+    //@ loop unroll 9;
+    for (; count > 1 && whole % 10u == 0; whole /= 10u)
+        count--;
+    //@ loop unroll 9;
     for (uint32_t i = count; i-- > 0; whole /= 10u)
         digit[i] = (char)('0' + (int)(whole % 10u));
-    while (count > 1 && digit[count - 1u] == '0')
-        count--;
     return count;
 }
 

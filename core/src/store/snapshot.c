@@ -336,7 +336,7 @@ static int is_sound(rlvc_agent *agent) {
 
 /* Fills a new agent. */
 static rlvc_status load(rlvc_stream *stream, rlvc_agent *agent) {
-    rlvc_cursor_mark mark;
+    rlvc_cursor_mark mark = {{0}}; /* what is read is passed by value first */
     int fits = pass_state(stream, agent, &mark);
     if (stream->status != RLVC_OK)
         return stream->status;
