@@ -160,8 +160,9 @@ def policies(folder):
 def learners(folder):
     """RESULTS.md's comparison of learners in Sutton's maze, as bars."""
     text = (ROOT / "RESULTS.md").read_text(encoding="utf-8")
-    table = text[text.index("| learner | sees | optimal after |") :].split("\n\n")[0].splitlines()[2:]
-    rows = [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in table]
+    table = text[text.index("| learner | sees | optimal after |") :].split("\n\n")[0]
+    lines = table.replace("`", "").splitlines()[2:]
+    rows = [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in lines]
     figure = Figure(figsize=(7, 0.42 * len(rows) + 0.9), layout="constrained")
     axes = figure.subplots()
     for y, (name, _, after) in enumerate(rows):
