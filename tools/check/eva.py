@@ -16,13 +16,14 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/eva"
-MOST = {"base": 0, "tree": 0, "stats": 3, "act": 0, "log": 9, "export": 6, "store": 3}
+MOST = {"base": 0, "tree": 0, "stats": 3, "act": 0, "samples": 0, "log": 9, "export": 6, "store": 3}
 # More makes fewer alarms and takes longer.
 PRECISION = {"log": 1, "store": 2}
 RELATIONS = ("-eva-domains", "octagon")  # between two numbers
 PATHS = ("-eva-slevel", "4000", "-eva-min-loop-unroll", "16", "-eva-partition-history", "2",
          "-eva-interprocedural-history")  # each by itself: for drivers that go through a few shapes
 MORE = {"act": RELATIONS, "export": RELATIONS, "tree": PATHS,
+        "samples": ("-eva-slevel", "500", "-eva-min-loop-unroll", "8"),
         # What a function returned goes on with what it then has or has not written.
         "store": (*RELATIONS, "-eva-slevel", "200", "-eva-min-loop-unroll", "20", "-eva-partition-history", "1",
                   "-eva-interprocedural-history")}
