@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What learning from counts costs: a random walk in Sutton's maze, in Parquet files, by one process that counts, by two
 of them, and by the learner in memory. Prints JSON. Needs the package with its extras `fleet` and `dask`."""

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Measures the playground in Chromium: how large the module is, how long Sutton's maze takes to learn,
 and how many frames a second a maze of 30 x 30 cells gets while it is learnt as fast as can be. Learning

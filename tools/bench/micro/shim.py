@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Holds the Python package to its bars: its calls beside the same calls in C and beside empty calls.
 

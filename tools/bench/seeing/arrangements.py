@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Learns arrangements: what to do depends on how the same objects lie to each other.
 

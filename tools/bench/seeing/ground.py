@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Learns to find a goal on photographs that packages ship, from what a camera sees below it.
 

@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Learns a maze whose cells are photographs of objects, and tests it as a camera sees them elsewhere.
 

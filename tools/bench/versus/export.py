@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Compares the exported policy of the Binary Gridworld with what emlearn and m2cgen make of the same tree.
 

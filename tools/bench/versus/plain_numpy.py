@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Compares learning the Tiled Gridworld with a plain numpy version of it, in one run on one thread.
 
