@@ -141,10 +141,10 @@ static int is_done(const rlvc_agent *agent) {
         return learner->work.novelty.done;
     if (learner->phase == RLVC_PHASE_MODEL)
         return learner->work.model.done;
-    if (!RLVC_HAS_DEPENDENCE)
-        return learner->work.split.done;
-    return learner->work.split.done && !learner->dependence.wanted &&
-           rlvc_dependence_done(&learner->dependence, learner->end);
+    if (RLVC_HAS_DEPENDENCE && learner->dependence.wanted)
+        return 0;
+    return learner->work.split.done &&
+           (!RLVC_HAS_DEPENDENCE || rlvc_dependence_done(&learner->dependence, learner->end));
 }
 
 /* What was counted while the phase was under way stays as it was loaded. */
