@@ -118,7 +118,7 @@ def test_numbers_of_numpy_are_numbers():
     agent = rlvc.Agent(np.uint8(5), np.int64(2), seed=np.uint32(7), discount=np.float32(0.5))
     agent.begin(bytes(1))
     agent.observe(np.int8(1), np.float64(1.0), bytes(1), terminated=np.bool_(True))
-    assert agent.learn(np.int64(1000)).done
+    assert agent.learn(np.int64(10_000)).done
     assert agent.batch(np.int32(3)).act(np.int16(2)).shape == (2,)
 
 
