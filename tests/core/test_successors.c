@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "block.h"
 #include "store.h"
 #include "agent/state.h"
 #include "base/rng.h"
@@ -244,14 +245,14 @@ static void test_runs_of_samples(void **state) {
         life l;
         rlvc_progress progress;
         rlvc_agent *agent = live_widely(&l, bits, turned, i + 1u);
-        memcpy(before, wide, sizeof wide);
+        block_copy(before, wide, sizeof wide);
         assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
-        memcpy(at_once, wide, sizeof wide);
-        memcpy(wide, before, sizeof wide);
+        block_copy(at_once, wide, sizeof wide);
+        block_copy(wide, before, sizeof wide);
         do
             assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
         while (!progress.done);
-        assert_memory_equal(wide, at_once, sizeof wide);
+        assert_true(block_equal(wide, at_once, sizeof wide));
         assert_int_equal(agent->tree.classes, 2);
         assert_int_equal(rlvc_bits_feature(rlvc_tree_feature(&agent->tree, 0)), turned);
     }
