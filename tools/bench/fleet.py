@@ -19,6 +19,7 @@ import tempfile
 import time
 
 import numpy as np
+import pyarrow.parquet  # noqa: F401  # before any clock starts: loading it takes longer than counting
 
 import rlvc
 import rlvc.fleet
