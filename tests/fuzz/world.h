@@ -81,6 +81,7 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
                                variant ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT,
                                3.0f) == RLVC_OK);
         bags.size = 4;
+        bags.vectors.candidates = 2;
         must(rlvc_bags_domain(&bags, &domain) == RLVC_OK);
     } else {
         domain.percept_bytes = 1;
