@@ -148,6 +148,22 @@ static void test_flat(void **state) {
     assert_false(rlvc_archive_flat(&archive, -90.0f));
 }
 
+/* Episodes are counted up to 2^32 - 1. The last ones are kept all the same. */
+static void test_episodes_for_ever(void **state) {
+    (void)state;
+    const uint32_t ahead = 4u * RLVC_ARCHIVE_EPISODES;
+    make();
+    (void)rlvc_archive_add(&archive, &tree, 0.0f);
+    archive.trial[0].episodes = UINT32_MAX - ahead;
+    for (uint32_t i = 0; i < 3u * ahead; i++) {
+        note(0, 0.0f, (float)i);
+        for (uint32_t e = 0; e < RLVC_ARCHIVE_EPISODES && i >= RLVC_ARCHIVE_EPISODES; e++)
+            assert_in_range((uint32_t)archive.trial[0].earned[e], i - RLVC_ARCHIVE_EPISODES + 1u,
+                            i);
+        assert_in_range(archive.trial[0].episodes, UINT32_MAX - ahead, UINT32_MAX);
+    }
+}
+
 /* Caution prefers what was tried more; the race what was tried less. */
 static void test_choosing(void **state) {
     (void)state;
@@ -219,6 +235,7 @@ static void test_each_place(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_untried),
+        cmocka_unit_test(test_episodes_for_ever),
         cmocka_unit_test(test_scores_follow_the_formula),
         cmocka_unit_test(test_beta_has_bounds),
         cmocka_unit_test(test_the_worst_makes_room),

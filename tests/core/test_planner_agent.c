@@ -38,6 +38,53 @@ static void test_first_percepts_for_ever(void **state) {
     }
 }
 
+/* ------------------------------------------------------------------ counts that end */
+
+/* What is counted stays at 2^32 - 1, and the planner learns on. */
+static void test_counts_end(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    player p;
+    start(&p, planner, 7);
+    play(&p, 600);
+    planner->experience.total = planner->fitted = planner->searched = UINT32_MAX - 1u;
+    planner->episodes = planner->fits = planner->searches = planner->candidates = UINT32_MAX - 1u;
+    for (uint32_t round = 0; round < 3u; round++) {
+        play(&p, 600);
+        const rlvc_planner_statistics statistics = stats_of(planner);
+        assert_int_equal(statistics.interactions, UINT32_MAX);
+        assert_int_equal(statistics.episodes, UINT32_MAX);
+        assert_int_equal(statistics.fits, UINT32_MAX);
+        assert_int_equal(statistics.searches, UINT32_MAX);
+        assert_int_equal(statistics.candidates, UINT32_MAX);
+        assert_in_range(planner->experience.total - planner->fitted, 0, 599);
+        assert_in_range(planner->experience.total - planner->searched, 0, 599);
+    }
+}
+
+/* The interactions since the last fit and search are no more than 32 bits tell apart. */
+static void test_distances_end(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    const float percept[2] = {0.25f, -0.5f};
+    const rlvc_choice choice = {0, 0};
+    assert_int_equal(rlvc_begin(as_agent(planner), percept), RLVC_OK);
+    planner->experience.total = UINT32_MAX;
+    planner->fitted = 3;
+    planner->searched = 2;
+    planner->explored = UINT32_MAX - 1u;
+    planner->acting.why = RLVC_PLANNER_EXPLORE;
+    for (uint32_t i = 0; i < 3u; i++) {
+        assert_int_equal(rlvc_observe(as_agent(planner), choice, 0.0f, percept, RLVC_GOES_ON),
+                         RLVC_OK);
+        assert_int_equal(planner->fitted, i == 0 ? 2 : 1);
+        assert_int_equal(planner->searched, i == 0 ? 1 : 0);
+        assert_int_equal(planner->explored, UINT32_MAX);
+    }
+}
+
 /* ------------------------------------------------------------------ as a policy by itself */
 
 static char text[4000];
@@ -270,6 +317,8 @@ static void test_calls_from_callbacks(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_first_percepts_for_ever),
+        cmocka_unit_test(test_counts_end),
+        cmocka_unit_test(test_distances_end),
         cmocka_unit_test(test_the_policy_alone),
         cmocka_unit_test(test_no_policy),
         cmocka_unit_test(test_the_tree_is_the_policy),

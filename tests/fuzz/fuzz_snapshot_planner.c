@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Loads forged snapshots of a planner. The first two bytes choose what planner the store once held
- * and how much it had lived through; the others change its snapshot (forged_store.h). What is loaded
- * must hold together, and every later call be clean. All sizes are the least that are allowed, and
- * a search tries one policy: most of a run is learning. */
+ * and how much it had lived through; the others change its snapshot (forged_store.h). What is
+ * loaded must hold together, and every later call be clean. All sizes are the least that are
+ * allowed, and a search tries one policy: most of a run is learning. */
 #define STORE_BYTES 65536u
 #include "forged_store.h"
 

@@ -112,6 +112,7 @@ RLVC_API rlvc_status rlvc_planner_policy_of(const rlvc_planner_test *node, uint3
     3u /* there is no policy yet, or the model does not predict what one earns, and the best is    \
           held to earn no more than four deviations above the worst episode */
 
+/* Numbers stay at 2^32 - 1 once they are there. */
 typedef struct rlvc_planner_statistics {
     uint32_t interactions; /* observed since init */
     uint32_t episodes;     /* that ended */

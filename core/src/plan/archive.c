@@ -41,6 +41,8 @@ uint32_t rlvc_archive_add(rlvc_archive *archive, const rlvc_small_tree *tree, fl
 
 void rlvc_archive_note(rlvc_archive *archive, uint32_t policy, const float *start, float earned) {
     rlvc_trial *trial = archive->trial + policy;
+    if (trial->episodes == UINT32_MAX) /* no more are counted, but the oldest is replaced */
+        trial->episodes -= RLVC_ARCHIVE_EPISODES;
     uint32_t place = trial->episodes++ % RLVC_ARCHIVE_EPISODES;
     memcpy(rlvc_archive_start(archive, policy, place), start, archive->components * sizeof(float));
     trial->earned[place] = earned;

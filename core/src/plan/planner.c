@@ -254,7 +254,7 @@ static void close_episode(rlvc_planner *planner, uint8_t end) {
         planner->least = planner->earned;
     if (planner->episodes == 0 || planner->earned > planner->most)
         planner->most = planner->earned;
-    planner->episodes++;
+    rlvc_planner_count(&planner->episodes, 1);
     if (end != RLVC_TERMINATED && planner->steps > planner->longest)
         planner->longest = planner->steps;
     if (planner->acting.why == RLVC_PLANNER_EXPLORE) {
@@ -277,6 +277,17 @@ static rlvc_status check_interaction(const rlvc_planner *planner, rlvc_choice ch
     return rlvc_experience_has_room(&planner->experience) ? RLVC_OK : RLVC_E_BUSY;
 }
 
+/* Once interactions are no longer counted, what they were at the last fit and search goes down: so
+ * the number of those since grows on, and learning does not stop. */
+static void keep_distance(rlvc_planner *planner) {
+    if (planner->experience.total < UINT32_MAX)
+        return;
+    if (planner->fitted > 1u) /* 0 is none */
+        planner->fitted--;
+    if (planner->searched > 0)
+        planner->searched--;
+}
+
 rlvc_status rlvc_planner_observe(rlvc_agent *agent, rlvc_choice choice, float reward,
                                  const void *reached, uint8_t end) {
     rlvc_planner *planner;
@@ -286,11 +297,12 @@ rlvc_status rlvc_planner_observe(rlvc_agent *agent, rlvc_choice choice, float re
         status = check_interaction(planner, choice, reward, end);
     if (status != RLVC_OK)
         return status;
+    keep_distance(planner);
     rlvc_experience_append(&planner->experience, choice.action, reward, next, end);
     planner->earned += reward;
     planner->steps++;
     if (planner->acting.why == RLVC_PLANNER_EXPLORE) {
-        planner->explored++;
+        rlvc_planner_count(&planner->explored, 1);
         planner->new_cells += rlvc_cells_mark(planner->model, next, planner->cells);
     }
     planner->open = end == RLVC_GOES_ON;

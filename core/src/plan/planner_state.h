@@ -68,10 +68,11 @@ typedef struct rlvc_planner {
     float most;
     uint32_t episodes;  /* that ended */
     uint32_t longest;   /* truncated episode */
-    uint32_t fitted;    /* interactions at the last fit; 0: none */
+    uint32_t fitted;    /* interactions at the last fit; 0: none. With those at UINT32_MAX, this and
+                           searched go down instead */
     uint32_t explored;  /* interactions spent on exploring */
     uint32_t new_cells; /* in the episode that explores */
-    uint32_t counter;   /* steps of learning */
+    uint32_t counter;   /* steps of learning, modulo 2^32: each has seeds of its own */
     uint32_t searched;  /* interactions at the last search */
     uint32_t failures;  /* searches without gain in a row */
     uint32_t fits;
@@ -83,6 +84,11 @@ typedef struct rlvc_planner {
     uint8_t learning; /* a step is under way */
     uint8_t busy;     /* a callback is being called */
 } rlvc_planner;
+
+/* Counts what may go on for years: at most UINT32_MAX of it. */
+static inline void rlvc_planner_count(uint32_t *counter, uint32_t more) {
+    *counter += more < UINT32_MAX - *counter ? more : UINT32_MAX - *counter;
+}
 
 static inline uint32_t rlvc_planner_components(const rlvc_domain *domain) {
     return domain->percept_bytes / RLVC_THRESHOLDS_PERCEPT_BYTES(1);

@@ -110,7 +110,7 @@ static uint32_t fit_model(rlvc_planner *planner, uint32_t budget) {
         return spent;
     }
     planner->fitted = planner->experience.total;
-    planner->fits++;
+    rlvc_planner_count(&planner->fits, 1);
     if (planner->failures >= FAILURES_MAX)
         planner->failures = FAILURES_MAX - 1u;
     renew_commons(planner);
@@ -279,7 +279,7 @@ static void decide(rlvc_planner *planner) {
         return;
     }
     enter(planner, SEARCH);
-    planner->searches++;
+    rlvc_planner_count(&planner->searches, 1);
     planner->searched = planner->experience.total;
     planner->planning.candidate.nodes = 0; /* there is none: of the first search any is one */
     planner->planning.tries = 0;
@@ -324,7 +324,7 @@ static uint32_t search(rlvc_planner *planner, uint32_t budget) {
     uint32_t spent = rlvc_search_step(search, budget);
     if (!search->done)
         return spent;
-    planner->candidates += search->tried;
+    rlvc_planner_count(&planner->candidates, search->tried);
     float value = priced(search->best, search->tree.leaves);
     if (planning->candidate.nodes == 0 || value > planning->candidate_value) {
         planning->candidate_value = value;
@@ -365,7 +365,10 @@ static uint32_t try_candidate(rlvc_planner *planner) {
         gains = worth > best->score + 0.25f * archive->deviation;
         near = worth >= best->score - archive->deviation;
     }
-    planner->failures = gains ? 0u : planner->failures + 1u;
+    if (gains)
+        planner->failures = 0;
+    else
+        rlvc_planner_count(&planner->failures, 1);
     if (near) {
         uint32_t added = rlvc_archive_add(archive, &planning->candidate, planning->value_sum);
         archive->trial[added].score = worth;
