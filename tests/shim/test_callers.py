@@ -100,7 +100,7 @@ def box(low, high, *shape):
     ],
     ids=str,
 )
-def test_a_run_goes_on_with_its_own_actions_only(actions, other, bins):
+def test_a_run_goes_on_and_plays_with_its_own_actions_only(actions, other, bins):
     def line(space):
         env = Line()
         env.action_space = space
@@ -111,6 +111,12 @@ def test_a_run_goes_on_with_its_own_actions_only(actions, other, bins):
     with pytest.raises(errors.ConfigError, match=r"^run: its .* actions, .* are not those of .*: begin"):
         run.learn(line(other), 30)
     assert run.interactions == 60
+    assert len(run.evaluate(line(actions), 2, max_steps=9).returns) == 2
+    if (actions, other) == (spaces.Discrete(2), spaces.Discrete(3)):  # it has both, and one more
+        run.evaluate(line(other), 2, max_steps=9)
+        return
+    with pytest.raises(errors.ConfigError, match=r"^run: its .* actions, .* are not those of .*: pass"):
+        run.evaluate(line(other), 2)
 
 
 @pytest.mark.parametrize(
@@ -125,7 +131,7 @@ def test_a_run_goes_on_with_its_own_actions_only(actions, other, bins):
     ],
     ids=str,
 )
-def test_a_run_goes_on_with_its_own_observations_only(seen, other):
+def test_a_run_goes_on_and_plays_with_its_own_observations_only(seen, other):
     def line(space):
         return Line(space, seen=lambda place: np.full(space.shape or (), 1 + place % 3, np.int64))
 
@@ -133,6 +139,9 @@ def test_a_run_goes_on_with_its_own_observations_only(seen, other):
     assert run.learn(line(seen), 30).interactions == 60
     with pytest.raises(errors.ConfigError, match=r"^run: its observations, .* not those of .*: begin"):
         run.learn(line(other), 30)
+    assert len(run.evaluate(line(seen), 2, max_steps=9).returns) == 2
+    with pytest.raises(errors.ConfigError, match=r"^run: its observations, .* not those of .*: pass"):
+        run.evaluate(line(other), 2)
     assert run.interactions == 60
 
 

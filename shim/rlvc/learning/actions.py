@@ -85,6 +85,31 @@ class Actions:
         """Whether the names are the numbers of the tree."""
         return self.table is None and self.start == 0 and not self.words
 
+    def within(self, space: Any) -> bool:
+        """Whether each of these is an action of a space.
+
+        Parameters
+        ----------
+        space : gymnasium.Space
+
+        Returns
+        -------
+        bool
+            Words, which a log may have, are not looked for: True.
+        """
+        from gymnasium import spaces
+
+        if self.words:
+            return True
+        if not isinstance(space, spaces.Box):
+            return all(space.contains(self.of(index)) for index in range(self.count))
+        table = self.table
+        return (
+            table is not None
+            and table.shape[1:] == space.shape
+            and bool(((table >= space.low) & (table <= space.high)).all())
+        )
+
     def fit(self, space: Any) -> bool:
         """Whether these are all actions of a space, or of a Box some within its bounds.
 
@@ -104,15 +129,8 @@ class Actions:
         """
         from gymnasium import spaces
 
-        if self.words:
-            return True
-        if isinstance(space, spaces.Box):
-            table = self.table
-            return (
-                table is not None
-                and table.shape[1:] == space.shape
-                and bool(((table >= space.low) & (table <= space.high)).all())
-            )
+        if self.words or isinstance(space, spaces.Box):
+            return self.within(space)
         other = actions_of(space)
         if other.table is None or self.table is None:
             return other.table is self.table and (other.count, other.start) == (self.count, self.start)

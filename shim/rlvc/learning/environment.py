@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +11,11 @@ import numpy.typing as npt
 from ..errors import ConfigError, EnvError
 from . import boundary
 from .actions import Actions
+from .encode import Encoder
 from .masks import masks_of
+
+if TYPE_CHECKING:
+    from .run import Run
 
 
 class Environment:
@@ -46,6 +50,34 @@ class Environment:
         self.masks: npt.NDArray[np.bool_] | None = None
         self.masked = False
         self.current: Any = None
+
+    def need_fit(self, run: Run, learns: bool) -> None:
+        """Raise ConfigError if a run's actions or observations are not those of the environment.
+
+        Parameters
+        ----------
+        run : Run
+        learns : bool
+            Whether it is to learn on: then it must have all actions.
+
+        Raises
+        ------
+        ConfigError
+        SpaceError
+            The environment's actions or observations are of no kind that can be learnt.
+        """
+        actions, encoder, space = run.actions, run.encoder, self.action_space
+        hint = "begin a new run" if learns else "pass an environment like the one that it learnt in"
+        if not (actions.fit(space) if learns else actions.within(space)):
+            raise ConfigError(
+                f"run: its {actions.count} actions, {actions.name(0)} and so on, are not those of "
+                f"{space!s:.80}: {hint}"
+            )
+        if isinstance(encoder, Encoder) and not encoder.fits(self.observation_space):
+            raise ConfigError(
+                f"run: its observations, {len(encoder.elements)} numbers, are not those of "
+                f"{self.observation_space!s:.80}: {hint}"
+            )
 
     def start(self, actions: Actions, seed: int | None) -> None:
         """Reset the environment.

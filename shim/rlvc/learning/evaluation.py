@@ -73,6 +73,7 @@ def evaluate(run: Run, env: Any, episodes: int, seed: int, max_steps: int) -> Ev
     stream = Environment(env)
     if run.encoder is None:
         raise ConfigError("evaluate: a run on percepts has no encoder for observations")
+    stream.need_fit(run, learns=False)
     stream.start(run.actions, seed)
     play = _play_all if stream.vector else _play
     place = _Place()

@@ -213,7 +213,7 @@ def learn(
     stream = Environment(env)
     if run is not None:
         _need_same(run, [encoder, names, bins, method, *config.values()], hold)
-        _need_fit(run, stream)
+        stream.need_fit(run, learns=True)
     else:
         actions = actions_of(stream.action_space, bins, hold)
         if encoder is None:
@@ -265,20 +265,6 @@ def _need_same(run: Run, given: list[Any], hold: int) -> None:
         raise ConfigError("run: a policy by itself cannot learn on")
     if run.encoder is None:
         raise ConfigError("run: it learnt from percepts, and has no encoder for observations")
-
-
-def _need_fit(run: Run, stream: Environment) -> None:
-    """Raise ConfigError if a run learnt other actions or observations than the environment's."""
-    if not run.actions.fit(stream.action_space):
-        raise ConfigError(
-            f"run: its {run.actions.count} actions, {run.actions.name(0)} and so on, are not those of "
-            f"{stream.action_space!s:.80}: begin a new run"
-        )
-    if isinstance(run.encoder, Encoder) and not run.encoder.fits(stream.observation_space):
-        raise ConfigError(
-            f"run: its observations, {len(run.encoder.elements)} numbers, are not those of "
-            f"{stream.observation_space!s:.80}: begin a new run"
-        )
 
 
 def _begun(

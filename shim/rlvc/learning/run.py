@@ -320,7 +320,8 @@ class Run:
         Parameters
         ----------
         env : gymnasium.Env or gymnasium.vector.VectorEnv
-            Of a vector, each environment plays its share of the episodes.
+            With the observations that the run learnt, and its actions, perhaps among others. Of a
+            vector, each environment plays its share of the episodes.
         episodes : int
         seed : int
             Seed of the first reset.
@@ -337,7 +338,8 @@ class Run:
         Raises
         ------
         ConfigError
-            ``episodes`` or ``max_steps`` is not at least 1, or ``seed`` not at least 0.
+            ``episodes`` or ``max_steps`` is not at least 1, or ``seed`` not at least 0; or the
+            run's actions or observations are not the environment's.
         EnvError, RewardError, PerceptError
             The environment returned something else than Gymnasium's interface says. The message
             names the episode and its step, both from 0 on; of a vector, how many episodes had ended
