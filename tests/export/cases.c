@@ -2,7 +2,6 @@
 #include "cases.h"
 
 #include "gridworld.h"
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +10,7 @@
 #define PLACES 6u
 #define VECTORS_CAPACITY 600u
 #define NUMBERS_CAPACITY 2000u
+#define SLOT_BYTES 0x200000u /* more than any snapshot of these */
 
 static union {
     uint64_t aligned;
@@ -34,7 +34,31 @@ static void learn(rlvc_agent *agent) {
     while (!progress.done);
 }
 
-static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t capacity, float epsilon) {
+/* A store of two slots in a file, of which the second was never written. */
+static int file_read(void *file, uint32_t offset, void *buffer, uint32_t bytes) {
+    memset(buffer, 0, bytes);
+    if (fseek(file, (long)offset, SEEK_SET) == 0)
+        (void)fread(buffer, 1, bytes, file);
+    return 0;
+}
+
+static int file_write(void *file, uint32_t offset, const void *buffer, uint32_t bytes) {
+    return fseek(file, (long)offset, SEEK_SET) != 0 || fwrite(buffer, 1, bytes, file) != bytes;
+}
+
+static rlvc_store store_in(FILE *file) {
+    const rlvc_store store = {file, SLOT_BYTES, file_read, file_write, NULL, NULL};
+    return store;
+}
+
+void save_case(const learnt *made, FILE *file) {
+    const rlvc_store store = store_in(file);
+    must(rlvc_save(made->agent, &store), "save");
+}
+
+/* An agent that knows nothing yet, or one that is loaded. */
+static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t capacity, float epsilon,
+                              FILE *saved) {
     rlvc_config config;
     rlvc_agent *agent;
     must(rlvc_config_default(&config, domain, 4), "config");
@@ -42,7 +66,12 @@ static rlvc_agent *make_agent(const rlvc_domain *domain, uint32_t capacity, floa
     config.capacity = capacity;
     config.classes = 400;
     config.epsilon = epsilon;
-    must(rlvc_agent_init(&config, domain, &memory, sizeof memory, &agent), "init");
+    if (saved) {
+        const rlvc_store store = store_in(saved);
+        must(rlvc_load(&config, domain, &memory, sizeof memory, &store, &agent), "load");
+    } else {
+        must(rlvc_agent_init(&config, domain, &memory, sizeof memory, &agent), "init");
+    }
     return agent;
 }
 
@@ -157,7 +186,7 @@ static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
     return near & 1u ? (near & 2u ? 2u : 1u) : near & 4u ? 3u : 0u;
 }
 
-static learnt learn_vectors(uint32_t form) {
+static learnt make_vectors(uint32_t form, FILE *saved) {
     static rlvc_descriptors descriptors;
     learnt made = {NULL, 0, &descriptors, NULL};
     rlvc_domain domain;
@@ -166,7 +195,9 @@ static learnt learn_vectors(uint32_t form) {
     descriptors.candidates = 24;
     descriptors.draws = 2;
     must(rlvc_descriptors_domain(&descriptors, &domain), "domain");
-    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f);
+    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f, saved);
+    if (saved)
+        return made;
     for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
         vectors percept;
         memset(&percept, 0, sizeof percept);
@@ -224,7 +255,7 @@ static uint32_t wanted_of_pairs(const rlvc_spatial *spatial, const vectors *perc
     return (near & 3u) == 3u ? (at[0] + 30 < at[1] ? 2u : 1u) : near & 4u ? 3u : 0u;
 }
 
-static learnt learn_pairs(uint32_t form, uint32_t directed) {
+static learnt make_pairs(uint32_t form, uint32_t directed, FILE *saved) {
     static rlvc_spatial spatial;
     learnt made = {NULL, 0, &spatial.vectors, &spatial};
     rlvc_domain domain;
@@ -233,7 +264,9 @@ static learnt learn_pairs(uint32_t form, uint32_t directed) {
     spatial.vectors.candidates = 24;
     spatial.vectors.draws = 2;
     must(rlvc_spatial_domain(&spatial, &domain), "domain");
-    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f);
+    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f, saved);
+    if (saved)
+        return made;
     for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
         vectors percept;
         memset(&percept, 0, sizeof percept);
@@ -256,7 +289,7 @@ static uint32_t wanted_of_numbers(const float *x) {
     return x[0] > 0.25f * x[2] ? (x[1] > 0.1f ? 2u : 1u) : x[1] > -0.6f ? 3u : 0u;
 }
 
-static learnt learn_numbers(uint8_t oblique) {
+static learnt make_numbers(uint8_t oblique, FILE *saved) {
     static rlvc_thresholds thresholds;
     learnt made = {NULL, 0, NULL, NULL};
     rlvc_domain domain;
@@ -264,7 +297,9 @@ static learnt learn_numbers(uint8_t oblique) {
     must(rlvc_thresholds_default(&thresholds, COMPONENTS), "default");
     thresholds.oblique = oblique;
     must(rlvc_thresholds_domain(&thresholds, &domain), "domain");
-    made.agent = make_agent(&domain, NUMBERS_CAPACITY, 1.0f);
+    made.agent = make_agent(&domain, NUMBERS_CAPACITY, 1.0f, saved);
+    if (saved)
+        return made;
     for (uint32_t i = 0; i < NUMBERS_CAPACITY; i++) {
         float x[COMPONENTS];
         draw_numbers(&state, x);
@@ -276,21 +311,27 @@ static learnt learn_numbers(uint8_t oblique) {
 
 /* ------------------------------------------------------------------ cases */
 
-learnt learn_case(uint32_t i) {
+int takes_long(uint32_t i) {
+    return i == 3 || i == 4 || i == 8 || i == 10; /* wide, many, turned, slants */
+}
+
+learnt make_case(uint32_t i, FILE *saved) {
     if (i >= 9)
-        return learn_numbers(i == 10);
+        return make_numbers(i == 10, saved);
     if (i >= 7)
-        return i == 7 ? learn_pairs(RLVC_DESCRIPTORS_INT8, 0)
-                      : learn_pairs(RLVC_DESCRIPTORS_FLOAT, 1);
+        return i == 7 ? make_pairs(RLVC_DESCRIPTORS_INT8, 0, saved)
+                      : make_pairs(RLVC_DESCRIPTORS_FLOAT, 1, saved);
     if (i >= 5)
-        return learn_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8);
+        return make_vectors(i == 5 ? RLVC_DESCRIPTORS_FLOAT : RLVC_DESCRIPTORS_INT8, saved);
     static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};
     static const uint32_t capacity[] = {4000, 100, 12000, 6000, 30000};
     static const uint32_t depth[] = {0, 0, 4, 4, 6};
     learnt made = {NULL, bits[i], NULL, NULL};
     rlvc_domain domain;
     must(rlvc_bits_domain(bits[i], &domain), "domain");
-    made.agent = make_agent(&domain, capacity[i], i == 0 ? 0.9f : 1.0f);
+    made.agent = make_agent(&domain, capacity[i], i == 0 ? 0.9f : 1.0f, saved);
+    if (saved)
+        return made;
     if (i == 0)
         learn_maze(made.agent);
     else

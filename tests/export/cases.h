@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Agents whose policies are exported: learnt anew, alike, by the program that exports and by the
- * one that checks. */
+ * one that checks, or loaded by that: some would take an emulated machine minutes. */
 #ifndef RLVC_TESTS_EXPORT_CASES_H
 #define RLVC_TESTS_EXPORT_CASES_H
 
 #include "rlvc/rlvc.h"
+#include <stdio.h>
 
 /* maze    Sutton's maze: 18 bits, a table of actions
  * single  nothing to learn: one class
@@ -63,8 +64,15 @@ float get_number(const unsigned char *record, uint32_t form, uint32_t k);
 /* Draws a percept of COMPONENTS numbers in [-1, 1). */
 void draw_numbers(uint64_t *state, float *x);
 
-/* Learns case i; the memory is static, so that the last case learnt is the one there is. Ends the
- * program with a message if anything fails. */
-learnt learn_case(uint32_t i);
+/* Learns case i, or loads it if a file is given, in which a snapshot of it is; the memory is
+ * static, so that the last case is the one there is. Ends the program with a message if anything
+ * fails. */
+learnt make_case(uint32_t i, FILE *saved);
+
+/* Saves a case that was learnt into an empty file. Ends the program likewise. */
+void save_case(const learnt *made, FILE *file);
+
+/* 1 for a case that takes long to learn, and is of a kind of which another one is learnt sooner. */
+int takes_long(uint32_t i);
 
 #endif
