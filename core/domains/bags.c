@@ -125,7 +125,7 @@ rlvc_status rlvc_bags_domain(rlvc_bags *bags, rlvc_domain *domain) {
     made.ctx = bags;
     made.feature_bytes = layout.feature_bytes;
     made.feature_words = layout.feature_words;
-    made.kind = RLVC_DOMAIN_OWN;
+    made.kind = RLVC_DOMAIN_BAGS;
     made.exhibits = exhibits;
     made.candidates = candidates;
     made.detect = detect;

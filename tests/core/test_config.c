@@ -248,7 +248,7 @@ static void test_callbacks(void **state) {
     domain.exhibits = NULL;
     expect("exhibits", "without exhibits");
     for (uint32_t i = 0; i < 4u; i++) {
-        static const uint32_t unknown[] = {RLVC_DOMAIN_SPATIAL + 1u, 8u + RLVC_DOMAIN_BITS,
+        static const uint32_t unknown[] = {RLVC_DOMAIN_BAGS + 1u, 8u + RLVC_DOMAIN_BITS,
                                            32u + RLVC_DOMAIN_BITS, UINT32_MAX};
         make();
         domain.kind = unknown[i];

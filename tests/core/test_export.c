@@ -17,7 +17,8 @@
 #define BITS 2u
 #define DIMENSIONS 9u
 #define PERCEPT_BYTES RLVC_DESCRIPTORS_PERCEPT_BYTES(3, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
-#define FEATURE_BYTES RLVC_DESCRIPTORS_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
+#define BAG_SIZE 2u
+#define FEATURE_BYTES RLVC_BAGS_FEATURE_BYTES(BAG_SIZE, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)
 
 #define PLANE 258u /* components: more than a byte can number */
 #define NUMBERS 1728u
@@ -164,6 +165,20 @@ static void make_percept(uint32_t set, uint32_t form, uint32_t percept[PERCEPT_B
         }
 }
 
+/* Learns which action is wanted of six, where the first so many percepts are seen. */
+static rlvc_agent *teach_vectors(const rlvc_domain *domain, uint32_t form, uint32_t actions,
+                                 uint32_t percepts, const uint8_t wanted[8]) {
+    rlvc_agent *agent = make_agent(domain, actions, 1920, 16);
+    for (uint32_t i = 0; i < 1920; i++) {
+        uint32_t percept[PERCEPT_BYTES / 4u];
+        const uint32_t set = i % percepts, action = i / 8u % 6u;
+        make_percept(set, form, percept);
+        decide(agent, percept, action, action == wanted[set]);
+    }
+    learn(agent);
+    return agent;
+}
+
 /* An agent that has learnt to act by the first two vectors where the first is absent, else by all
  * three; or, if it knows one percept only, that there is nothing to tell apart. */
 static rlvc_agent *make_of_vectors(uint32_t form, uint32_t actions, uint32_t percepts) {
@@ -173,15 +188,18 @@ static rlvc_agent *make_of_vectors(uint32_t form, uint32_t actions, uint32_t per
     assert_int_equal(rlvc_descriptors_default(&descriptors, 3, DIMENSIONS, form, 0.5f), RLVC_OK);
     descriptors.margin = 1.0f;
     assert_int_equal(rlvc_descriptors_domain(&descriptors, &domain), RLVC_OK);
-    rlvc_agent *agent = make_agent(&domain, actions, 1920, 16);
-    for (uint32_t i = 0; i < 1920; i++) {
-        uint32_t percept[PERCEPT_BYTES / 4u];
-        const uint32_t set = i % percepts, action = i / 8u % 6u;
-        make_percept(set, form, percept);
-        decide(agent, percept, action, action == wanted[set]);
-    }
-    learn(agent);
-    return agent;
+    return teach_vectors(&domain, form, actions, percepts, wanted);
+}
+
+/* An agent that has learnt to act by whether one of the last two vectors is there. */
+static rlvc_agent *make_of_bags(uint32_t form, uint32_t actions, uint32_t percepts) {
+    static rlvc_bags bags;
+    static const uint8_t wanted[8] = {0, 0, 3, 3, 3, 3, 3, 3};
+    rlvc_domain domain;
+    assert_int_equal(rlvc_bags_default(&bags, 3, DIMENSIONS, form, 0.5f), RLVC_OK);
+    bags.size = BAG_SIZE;
+    assert_int_equal(rlvc_bags_domain(&bags, &domain), RLVC_OK);
+    return teach_vectors(&domain, form, actions, percepts, wanted);
 }
 
 /* Keeps what is written. */
@@ -200,12 +218,15 @@ static int keep(void *ctx, const char *written, size_t bytes) {
 
 static text exported;
 
-static rlvc_export_info export_vectors(uint32_t form, uint32_t actions, uint32_t percepts) {
+static rlvc_export_info export_to_text(rlvc_agent *agent) {
     rlvc_export_info info;
-    rlvc_agent *agent = make_of_vectors(form, actions, percepts);
     memset(&exported, 0, sizeof exported);
     assert_int_equal(rlvc_export_c(agent, "v", keep, &exported, &info), RLVC_OK);
     return info;
+}
+
+static rlvc_export_info export_vectors(uint32_t form, uint32_t actions, uint32_t percepts) {
+    return export_to_text(make_of_vectors(form, actions, percepts));
 }
 
 /* Three distinct features, of which two are tested twice and written once. */
@@ -238,6 +259,35 @@ static void test_vectors_that_do_not_matter(void **unused) {
 static void test_each_write_of_vectors_failing(void **unused) {
     (void)unused;
     (void)fail_each_write(make_of_vectors(RLVC_DESCRIPTORS_INT8, 6, 8));
+}
+
+/* ------------------------------------------------------------------ bags */
+
+static void test_bags(void **unused) {
+    (void)unused;
+    rlvc_export_info info = export_to_text(make_of_bags(RLVC_DESCRIPTORS_FLOAT, 6, 8));
+    assert_int_equal(info.compact, 2);
+    assert_int_equal(info.bytes, 3 + 4 + 1 + BAG_SIZE * 4 * DIMENSIONS);
+    assert_non_null(strstr(exported.text, "static const unsigned char v_count[1] = {\n    2};\n"));
+    assert_non_null(strstr(exported.text, "static const float v_vector[1][2][9] = {\n    {{"));
+    assert_non_null(strstr(exported.text, "float least = 0.25f;"));
+    info = export_to_text(make_of_bags(RLVC_DESCRIPTORS_INT8, 6, 8));
+    assert_int_equal(info.compact, 2);
+    assert_int_equal(info.bytes, 3 + 4 + 1 + BAG_SIZE * DIMENSIONS);
+    assert_non_null(strstr(exported.text, "static const int8_t v_vector[1][2][9] = {\n    {{"));
+}
+
+static void test_bags_that_do_not_matter(void **unused) {
+    (void)unused;
+    const rlvc_export_info info = export_to_text(make_of_bags(RLVC_DESCRIPTORS_FLOAT, 6, 1));
+    assert_int_equal(info.compact, 1);
+    assert_int_equal(info.bytes, 0);
+    assert_non_null(strstr(exported.text, "v_act(const void *percept) {\n    (void)percept;\n"));
+}
+
+static void test_each_write_of_bags_failing(void **unused) {
+    (void)unused;
+    (void)fail_each_write(make_of_bags(RLVC_DESCRIPTORS_INT8, 6, 8));
 }
 
 /* ------------------------------------------------------------------ thresholds */
@@ -350,6 +400,9 @@ int main(void) {
         cmocka_unit_test(test_vectors),
         cmocka_unit_test(test_vectors_that_do_not_matter),
         cmocka_unit_test(test_each_write_of_vectors_failing),
+        cmocka_unit_test(test_bags),
+        cmocka_unit_test(test_bags_that_do_not_matter),
+        cmocka_unit_test(test_each_write_of_bags_failing),
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_oblique_numbers),
         cmocka_unit_test(test_each_write_of_numbers_failing),

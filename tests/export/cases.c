@@ -17,7 +17,7 @@ static union {
     unsigned char bytes[RLVC_AGENT_BYTES(4, 30000, 400, BYTES_MAX, RLVC_BITS_FEATURE_BYTES, 64)];
     unsigned char vectors[RLVC_AGENT_BYTES(
         4, VECTORS_CAPACITY, 400, sizeof(vectors),
-        RLVC_SPATIAL_FEATURE_BYTES(DIMENSIONS, RLVC_DESCRIPTORS_FLOAT), 64)];
+        RLVC_BAGS_FEATURE_BYTES(BAG_SIZE, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT), 64)];
 } memory;
 
 static void must(rlvc_status status, const char *what) {
@@ -176,19 +176,25 @@ void draw_vectors(uint64_t *state, uint32_t form, vectors *percept) {
     }
 }
 
-/* What to do, by the places that some vector is near. */
-static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
+/* Which places some vector is near. */
+static uint32_t places_near(const vectors *percept, uint32_t form) {
     uint32_t near = 0;
     for (uint32_t point = 0; point < percept->count; point++) {
         const float first = get_number(percept->bytes, form, point * DIMENSIONS);
         near |= 1u << (uint32_t)((first + 110.0f) / 40.0f);
     }
+    return near;
+}
+
+/* What to do, by the places that some vector is near. */
+static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
+    const uint32_t near = places_near(percept, form);
     return near & 1u ? (near & 2u ? 2u : 1u) : near & 4u ? 3u : 0u;
 }
 
 static learnt make_vectors(uint32_t form, FILE *saved) {
     static rlvc_descriptors descriptors;
-    learnt made = {NULL, 0, &descriptors, NULL};
+    learnt made = {.descriptors = &descriptors};
     rlvc_domain domain;
     uint64_t state = 1;
     must(rlvc_descriptors_default(&descriptors, POINTS, DIMENSIONS, form, 150.0f), "default");
@@ -257,7 +263,7 @@ static uint32_t wanted_of_pairs(const rlvc_spatial *spatial, const vectors *perc
 
 static learnt make_pairs(uint32_t form, uint32_t directed, FILE *saved) {
     static rlvc_spatial spatial;
-    learnt made = {NULL, 0, &spatial.vectors, &spatial};
+    learnt made = {.descriptors = &spatial.vectors, .spatial = &spatial};
     rlvc_domain domain;
     uint64_t state = 1;
     must(rlvc_spatial_default(&spatial, POINTS, DIMENSIONS, form, directed, 150.0f), "default");
@@ -278,6 +284,37 @@ static learnt make_pairs(uint32_t form, uint32_t directed, FILE *saved) {
     return made;
 }
 
+/* ------------------------------------------------------------------ bags */
+
+/* What to do, by whether two parts are seen of a thing of three, and what stands beside it. */
+static uint32_t wanted_of_parts(const vectors *percept, uint32_t form) {
+    static const uint32_t parts_of[8] = {0, 0, 0, 1, 0, 1, 1, 1};
+    const uint32_t near = places_near(percept, form);
+    return parts_of[near & 7u] ? (near & 8u ? 2u : 1u) : near & 16u ? 3u : 0u;
+}
+
+static learnt make_parts(uint32_t form, FILE *saved) {
+    static rlvc_bags bags;
+    learnt made = {.descriptors = &bags.vectors, .bags = &bags};
+    rlvc_domain domain;
+    uint64_t state = 1;
+    must(rlvc_bags_default(&bags, POINTS, DIMENSIONS, form, 40.0f), "default");
+    bags.size = BAG_SIZE;
+    bags.vectors.candidates = 3; /* emulated machines learn it, too */
+    must(rlvc_bags_domain(&bags, &domain), "domain");
+    made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f, saved);
+    if (saved)
+        return made;
+    for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
+        vectors percept;
+        memset(&percept, 0, sizeof percept);
+        draw_vectors(&state, form, &percept);
+        decide(made.agent, &percept, wanted_of_parts(&percept, form));
+    }
+    learn(made.agent);
+    return made;
+}
+
 /* ------------------------------------------------------------------ thresholds */
 
 void draw_numbers(uint64_t *state, float *x) {
@@ -291,7 +328,7 @@ static uint32_t wanted_of_numbers(const float *x) {
 
 static learnt make_numbers(uint8_t oblique, FILE *saved) {
     static rlvc_thresholds thresholds;
-    learnt made = {NULL, 0, NULL, NULL};
+    learnt made = {.bits = 0};
     rlvc_domain domain;
     uint64_t state = 1;
     must(rlvc_thresholds_default(&thresholds, COMPONENTS), "default");
@@ -312,10 +349,12 @@ static learnt make_numbers(uint8_t oblique, FILE *saved) {
 /* ------------------------------------------------------------------ cases */
 
 int takes_long(uint32_t i) {
-    return i == 3 || i == 4 || i == 8 || i == 10; /* wide, many, turned, slants */
+    return i == 3 || i == 4 || i == 8 || i == 10 || i == 12; /* wide, many, turned, slants, parts */
 }
 
 learnt make_case(uint32_t i, FILE *saved) {
+    if (i >= 11)
+        return make_parts(i == 11 ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT, saved);
     if (i >= 9)
         return make_numbers(i == 10, saved);
     if (i >= 7)
@@ -326,7 +365,7 @@ learnt make_case(uint32_t i, FILE *saved) {
     static const uint32_t bits[] = {18, 7, 40, BITS_MAX, 40};
     static const uint32_t capacity[] = {4000, 100, 12000, 6000, 30000};
     static const uint32_t depth[] = {0, 0, 4, 4, 6};
-    learnt made = {NULL, bits[i], NULL, NULL};
+    learnt made = {.bits = bits[i]};
     rlvc_domain domain;
     must(rlvc_bits_domain(bits[i], &domain), "domain");
     made.agent = make_agent(&domain, capacity[i], i == 0 ? 0.9f : 1.0f, saved);

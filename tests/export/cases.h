@@ -17,28 +17,33 @@
  * pairs   pairs of descriptors, as int8_t
  * turned  pairs of descriptors, as floats, with directions
  * reals   thresholds
- * slants  oblique thresholds */
+ * slants  oblique thresholds
+ * bags    bags of descriptors, as int8_t
+ * parts   bags of descriptors, as floats */
 #define CASE_NAMES                                                                                 \
     {                                                                                              \
         "maze", "single", "bytes", "wide", "many", "floats", "int8s", "pairs", "turned", "reals",  \
-            "slants"                                                                               \
+            "slants", "bags", "parts"                                                              \
     }
-#define CASES 11u
+#define CASES 13u
 
 #define POINTS 4u
 #define DIMENSIONS 36u
 #define COMPONENTS 3u
+#define BAG_SIZE 4u
 
 typedef struct learnt {
     rlvc_agent *agent;
     uint32_t bits;                       /* 0: descriptors or thresholds */
     const rlvc_descriptors *descriptors; /* of which the percepts are, or null */
     const rlvc_spatial *spatial;         /* likewise */
+    const rlvc_bags *bags;               /* likewise */
 } learnt;
 
 /* A percept of descriptors in either form, with places or without, or a feature; aligned. */
 typedef union vectors {
     uint32_t count;
+    unsigned char bag[RLVC_BAGS_FEATURE_BYTES(BAG_SIZE, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT)];
     unsigned char bytes[RLVC_SPATIAL_PERCEPT_BYTES(POINTS, DIMENSIONS, RLVC_DESCRIPTORS_FLOAT, 1)];
 } vectors;
 

@@ -2,11 +2,12 @@
 /* Proves the exported policies equal to the agents that they were exported from. Of bits, on every
  * percept if there are no more than RLVC_EXPORT_BITS, else on so many random ones, of which the
  * first fall on a path to each leaf of the tree (many, the other bits being random). Of others, on
- * RLVC_EXPORT_REALS. Of these,
- * of descriptors, half have a vector whose distance from a feature is its radius up to a few
- * roundings, and of pairs half have one in place or nearly; of thresholds, half lie on a cutpoint
- * up to a few roundings. And an agent that learnt the same exports the same, to the letter.
- * With RLVC_EXPORT_LOADS the cases that take long are not learnt but loaded. */
+ * RLVC_EXPORT_REALS. Of these, of descriptors, half have a vector whose distance from a feature is
+ * its radius up to a few roundings, and of pairs half have one in place or nearly; of bags, half
+ * score what a feature needs up to a few roundings; of thresholds, half lie on a cutpoint up to a
+ * few roundings. And an agent that learnt the same exports the same, to the letter. With
+ * RLVC_EXPORT_LOADS the cases that take long are not learnt but loaded. */
+#include "bags.h"
 #include "bytes.h"
 #include "cases.h"
 #include "floats.h"
@@ -14,12 +15,14 @@
 #include "many.h"
 #include "maze.h"
 #include "pairs.h"
+#include "parts.h"
 #include "reals.h"
 #include "single.h"
 #include "slants.h"
 #include "turned.h"
 #include "wide.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,8 +48,12 @@ static unsigned exported(uint32_t i, const unsigned char *percept) {
         return int8s_act(percept);
     case 7:
         return pairs_act(percept);
-    default:
+    case 8:
         return turned_act(percept);
+    case 11:
+        return bags_act(percept);
+    default:
+        return parts_act(percept);
     }
 }
 
@@ -170,6 +177,33 @@ static void put_at_edge(const learnt *made, uint32_t split_number, vectors *perc
     }
 }
 
+/* Gives a percept so many vectors of a bag that one more is too much, and one so far from the next
+ * vector that together they score what is needed. If that takes more than POINTS, changes nothing.
+ */
+static void put_enough(const learnt *made, uint32_t split_number, vectors *percept) {
+    const uint32_t form = made->descriptors->form;
+    const float most = made->descriptors->radius * made->descriptors->radius;
+    rlvc_split split;
+    vectors feature;
+    if (rlvc_split_at(made->agent, split_number, &split, &feature) != RLVC_OK)
+        return;
+    const float needed = rlvc_bags_needed(&feature);
+    const uint32_t whole = (uint32_t)(needed / most), count = rlvc_bags_count(&feature);
+    if (whole >= POINTS || whole >= count)
+        return;
+    const float roundings = 1.2e-7f * ((float)(draw(&state) % 33u) - 16.0f);
+    const float off =
+        sqrtf((most - (needed - most * (float)whole)) / DIMENSIONS) * (1.0f + roundings);
+    const uint32_t first = draw(&state) % count;
+    percept->count = whole + 1u;
+    for (uint32_t k = 0; k < (whole + 1u) * DIMENSIONS; k++) {
+        const uint32_t from = (first * DIMENSIONS + k) % (count * DIMENSIONS);
+        const float number = get_number(feature.bag + 4u, form, from);
+        set_number(percept->bytes, form, k,
+                   k / DIMENSIONS < whole ? number : number + (draw(&state) % 2u ? off : -off));
+    }
+}
+
 static int all_reached(const uint32_t *reached, uint32_t classes) {
     for (uint32_t c = 0; c < classes; c++)
         if (reached[c] == 0) {
@@ -191,7 +225,9 @@ static int check_vectors(const learnt *made, uint32_t i) {
         draw_vectors(&state, made->descriptors->form, &percept);
         if (made->spatial)
             draw_places(&state, made->spatial, &percept);
-        if (n % 2u)
+        if (n % 2u && made->bags)
+            put_enough(made, draw(&state) % (statistics.classes - 1u), &percept);
+        else if (n % 2u)
             put_at_edge(made, draw(&state) % (statistics.classes - 1u), &percept);
         if (made->spatial && n % 4u > 1u)
             put_pair(made, draw(&state) % (statistics.classes - 1u), &percept);

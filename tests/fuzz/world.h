@@ -14,7 +14,6 @@
 
 #define CELLS 16u
 #define PERCEPT_MAX 32u /* bytes */
-#define WORLD_BAGS 100u /* beside RLVC_DOMAIN_*: bags have no kind of their own */
 
 /* ------------------------------------------------------------------ a domain of one's own */
 
@@ -46,7 +45,7 @@ static inline int own_name(void *ctx, const void *feature, char *text, uint32_t 
 
 /* ------------------------------------------------------------------ all six */
 
-/* A domain of a kind (RLVC_DOMAIN_* or WORLD_BAGS), of which there are two variants. */
+/* A domain of a kind (RLVC_DOMAIN_*), of which there are two variants. */
 static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
     static rlvc_thresholds thresholds;
     static rlvc_descriptors descriptors;
@@ -76,7 +75,7 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
         spatial.vectors.draws = 2;
         spatial.pairs = 4;
         must(rlvc_spatial_domain(&spatial, &domain) == RLVC_OK);
-    } else if (kind == WORLD_BAGS) {
+    } else if (kind == RLVC_DOMAIN_BAGS) {
         must(rlvc_bags_default(&bags, 2, 2,
                                variant ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT,
                                3.0f) == RLVC_OK);
@@ -94,10 +93,10 @@ static inline rlvc_domain world_domain(uint32_t kind, uint32_t variant) {
     return domain;
 }
 
-/* Are percepts vectors? Those of the domain of one's own are a byte. */
+/* Are percepts vectors? */
 static inline int sees_vectors(const rlvc_domain *domain) {
     return domain->kind == RLVC_DOMAIN_DESCRIPTORS || domain->kind == RLVC_DOMAIN_SPATIAL ||
-           (domain->kind == RLVC_DOMAIN_OWN && domain->percept_bytes > 1u);
+           domain->kind == RLVC_DOMAIN_BAGS;
 }
 
 /* What a cell looks like. */
@@ -126,7 +125,7 @@ static inline void world_percept(const rlvc_domain *domain, uint32_t cell,
 
 /* The last cell pays. To gather a bag takes more samples of a kind: there half of the cells pay. */
 static inline float world_reward(const rlvc_domain *domain, uint32_t cell) {
-    const int bags = domain->kind == RLVC_DOMAIN_OWN && sees_vectors(domain);
+    const int bags = domain->kind == RLVC_DOMAIN_BAGS;
     return cell == CELLS - 1u || (bags && cell < CELLS / 2u) ? 1.0f : 0.0f;
 }
 

@@ -41,6 +41,35 @@ def caller(tmp_path_factory):
 
 
 @pytest.fixture
+def acts_of_export(tmp_path):
+    """What the C of an agent on vectors does at packed percepts, by gcc."""
+    program = """
+        #include "seen.h"
+        #include <stdio.h>
+        int main(void) {
+            static uint32_t percept[WORDS];
+            while (fread(percept, sizeof percept, 1, stdin) == 1)
+                putchar((int)seen_act(percept) + '0');
+            return 0;
+        }"""
+
+    def run(agent, records):
+        (tmp_path / "seen.h").write_text(agent.export_c("seen"), encoding="utf-8")
+        subprocess.run(
+            ["gcc", "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off",
+             f"-I{tmp_path}", f"-DWORDS={len(records[0]) // 4}", "-o", tmp_path / "seen",
+             "-x", "c", "-"],
+            input=program, text=True, check=True,
+        )  # fmt: skip
+        done = subprocess.run(
+            [tmp_path / "seen"], input=b"".join(records), capture_output=True, check=True
+        )
+        return [int(c) for c in done.stdout.decode()]
+
+    return run
+
+
+@pytest.fixture
 def walk():
     """Makes an agent that walked along cells 0 to 7, of which 5 pays 1."""
 

@@ -58,8 +58,15 @@ def test_half_of_a_thing_is_enough(domain, tmp_path):
     again = rlvc.Agent.load(tmp_path / "agent.rlvc")
     assert again.domain.parameters == domain.parameters
     assert again.print() == agent.print() == pickle.loads(pickle.dumps(agent)).print()
-    with pytest.raises(errors.ConfigError):
-        agent.export_c("seen")
+
+
+def test_the_export_acts_like_the_agent(domain, acts_of_export):
+    agent, random = taught(domain), np.random.default_rng(3)
+    scenes = [scene(domain, i % 4, i % 5, random) for i in range(300)]
+    records = [domain.pack(s) for s in [*scenes, scenes[0][:0]]]
+    acts = [agent.predict(r).action for r in records]
+    assert acts_of_export(agent, records) == acts
+    assert 0 < sum(acts) < len(acts)
 
 
 def test_empty_percepts_have_nothing_near(domain):

@@ -3,7 +3,6 @@
 
 import gc
 import pickle
-import subprocess
 
 import numpy as np
 import pytest
@@ -56,28 +55,10 @@ def test_the_feature_is_found(domain):
     assert pickle.loads(pickle.dumps(agent)).print() == agent.print()
 
 
-def test_the_export_acts_like_the_agent(domain, tmp_path):
+def test_the_export_acts_like_the_agent(domain, acts_of_export):
     agent = taught(domain)
-    (tmp_path / "seen.h").write_text(agent.export_c("seen"), encoding="utf-8")
-    program = """
-        #include "seen.h"
-        #include <stdio.h>
-        int main(void) {
-            static uint32_t percept[WORDS];
-            while (fread(percept, sizeof percept, 1, stdin) == 1)
-                putchar((int)seen_act(percept) + '0');
-            return 0;
-        }"""
-    subprocess.run(
-        ["gcc", "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", f"-I{tmp_path}",
-         f"-DWORDS={domain.percept_bytes // 4}", "-o", tmp_path / "seen", "-x", "c", "-"],
-        input=program, text=True, check=True,
-    )  # fmt: skip
     records = [domain.pack(p) for p in [*scenes(domain, 300, seed=3), scenes(domain, 1)[0][:0]]]
-    done = subprocess.run(
-        [tmp_path / "seen"], input=b"".join(records), capture_output=True, check=True
-    )
-    assert [int(c) for c in done.stdout.decode()] == [agent.predict(r).action for r in records]
+    assert acts_of_export(agent, records) == [agent.predict(r).action for r in records]
 
 
 def test_a_saved_agent_knows_its_domain(domain, tmp_path, capsys):

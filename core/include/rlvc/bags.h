@@ -39,7 +39,7 @@ RLVC_API rlvc_status rlvc_bags_default(rlvc_bags *bags, uint32_t points, uint32_
                                        uint32_t form, float radius);
 
 /* Makes *domain the domain of such percepts, with *bags as its ctx. Percepts are refused as by
- * rlvc_descriptors_domain. rlvc_export_c does not know these features (RLVC_E_CONFIG).
+ * rlvc_descriptors_domain.
  *
  * Detecting costs O(K P D) for each percept and feature, at most. A candidate begins as the vectors
  * of one percept, drawn from all targets alike that are not their action's only one. Twice it

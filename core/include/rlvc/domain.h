@@ -48,6 +48,7 @@ static inline const void *rlvc_samples_percept(const rlvc_samples *samples, uint
 #define RLVC_DOMAIN_DESCRIPTORS 2u
 #define RLVC_DOMAIN_THRESHOLDS 3u
 #define RLVC_DOMAIN_SPATIAL 4u
+#define RLVC_DOMAIN_BAGS 5u
 
 /* How an agent learns: see rlvc/agent.h and rlvc/planner.h. A program links a method if it names
  * it, or calls a domain's constructor that does. */

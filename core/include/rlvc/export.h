@@ -23,7 +23,7 @@ typedef struct rlvc_export_info {
  *
  *     unsigned NAME_act(const unsigned char *percept);   of bits; includes nothing
  *     unsigned NAME_act(const void *percept);            of descriptors, also
- *                                                        in pairs; includes <stdint.h>
+ *                                                        in pairs or bags; includes <stdint.h>
  *     unsigned NAME_act(const float *percept);           of thresholds; includes nothing
  *
  * The tree is made compact first, which changes no action. Of bits: where the tests look at few it
@@ -31,7 +31,8 @@ typedef struct rlvc_export_info {
  * else a table of nodes. The header says which, and shows the tree in its comments.
  *
  * Of descriptors: a table of nodes, and the features' radii and vectors, each feature once; of
- * pairs also scales, displacements and second vectors, which are 0 of a feature of one vector. A
+ * pairs also scales, displacements and second vectors, which are 0 of a feature of one vector; of
+ * bags in place of radii what is needed and how many vectors there are, and room for K each. A
  * percept is the domain's record, aligned to 4, and its count must be at most P. The detector is
  * that of the domain bit for bit, if compiled with -ffp-contract=off as the library is.
  *

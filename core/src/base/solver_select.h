@@ -36,7 +36,7 @@
 #define RLVC_DEPENDENCES 3u
 #endif
 #ifndef RLVC_DOMAINS
-#define RLVC_DOMAINS 31u
+#define RLVC_DOMAINS 63u
 #endif
 #ifndef RLVC_DISCOUNTS
 #define RLVC_DISCOUNTS 3u

@@ -7,6 +7,7 @@
 
 #include "rlvc/bits.h"
 #include "collapse.h"
+#include "export_bags.h"
 #include "export_descriptors.h"
 #include "export_thresholds.h"
 #include "export_tree.h"
@@ -176,7 +177,9 @@ static void put_comment(exporter *e, const rlvc_domain *domain) {
     else if (domain->kind == RLVC_DOMAIN_SPATIAL) {
         const rlvc_spatial *spatial = (const rlvc_spatial *)domain->ctx;
         rlvc_export_descriptors_comment(&e->c, &spatial->vectors, spatial);
-    } else
+    } else if (domain->kind == RLVC_DOMAIN_BAGS)
+        rlvc_export_descriptors_comment(&e->c, &((const rlvc_bags *)domain->ctx)->vectors, NULL);
+    else
         rlvc_export_thresholds_comment(&e->c, domain);
 }
 
@@ -190,6 +193,8 @@ static uint32_t put_policy(exporter *e, const rlvc_domain *domain) {
         const rlvc_spatial *spatial = (const rlvc_spatial *)domain->ctx;
         return rlvc_export_descriptors(&e->c, &spatial->vectors, spatial);
     }
+    if (domain->kind == RLVC_DOMAIN_BAGS)
+        return rlvc_export_bags(&e->c, (const rlvc_bags *)domain->ctx);
     return rlvc_export_thresholds(&e->c);
 }
 

@@ -4,12 +4,13 @@
  * A feature is written once, however many nodes test it: it belongs to the first of them in
  * pre-order, and is numbered by the order of these. The detector that is written is the text of
  * domains/nearest.c with the number of dimensions put in, so that the same numbers are added in the
- * same order. What is of pairs alone is in export_spatial.c. */
+ * same order. What is of pairs alone is in export_spatial.c, and of bags in export_bags.c. */
 #include "rlvc/float_rules.h"
 
 #include "export_descriptors.h"
 
 #include "export_spatial.h"
+#include "rlvc/bags.h"
 
 #include <string.h>
 
@@ -85,27 +86,48 @@ static void put_vector(rlvc_compact *c, const rlvc_descriptors *d, const unsigne
     }
 }
 
+static void put_place(rlvc_compact *c, const unsigned char *feature) {
+    float number[3];
+    memcpy(number, feature + 4u, sizeof number);
+    for (uint32_t k = 0; k < 3u; k++) {
+        rlvc_compact_string(c, k ? ", " : "");
+        rlvc_compact_float(c, number[k]);
+    }
+}
+
+/* The vectors of a bag; C fills the rest of the entry with zeros. An empty bag, which no agent
+ * learns but a snapshot may hold, has one, as C99 has no empty braces. */
+static void put_bag(rlvc_compact *c, const rlvc_descriptors *d, const unsigned char *feature) {
+    const uint32_t bytes = RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form);
+    uint32_t i = 0;
+    do {
+        rlvc_compact_string(c, i ? ",\n     {" : "{");
+        put_vector(c, d, feature + 8u + (size_t)i * bytes);
+        rlvc_compact_string(c, "}");
+    } while (++i < rlvc_bags_count(feature));
+}
+
 static void put_entry(rlvc_compact *c, const rlvc_descriptors *d, const unsigned char *feature,
                       rlvc_export_column column) {
     const uint32_t bytes = RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form);
-    float number[3];
-    if (column == RLVC_EXPORT_RADIUS) {
-        rlvc_compact_float(c, rlvc_descriptors_radius(feature));
+    if (column == RLVC_EXPORT_RADIUS || column == RLVC_EXPORT_NEEDED) {
+        rlvc_compact_float(c, rlvc_descriptors_radius(feature)); /* both come first */
+        return;
+    }
+    if (column == RLVC_EXPORT_COUNT) {
+        rlvc_compact_number(c, "", rlvc_bags_count(feature));
         return;
     }
     rlvc_compact_string(c, "{");
-    if (column == RLVC_EXPORT_PLACE) {
-        memcpy(number, feature + 4u, sizeof number);
-        for (uint32_t k = 0; k < 3u; k++) {
-            rlvc_compact_string(c, k ? ", " : "");
-            rlvc_compact_float(c, number[k]);
-        }
-    } else {
+    if (column == RLVC_EXPORT_PLACE)
+        put_place(c, feature);
+    else if (column == RLVC_EXPORT_BAG)
+        put_bag(c, d, feature);
+    else
         put_vector(c, d,
                    feature + (column == RLVC_EXPORT_VECTOR  ? 4u
                               : column == RLVC_EXPORT_FIRST ? 16u
                                                             : 16u + bytes));
-    }
     rlvc_compact_string(c, "}");
 }
 
@@ -132,9 +154,9 @@ void rlvc_export_descriptors_table(rlvc_compact *c, const rlvc_descriptors *d, c
     rlvc_compact_string(c, "] = {");
 }
 
-/* Returns how many features there are. */
-static uint32_t put_nodes(rlvc_compact *c) {
+uint32_t rlvc_export_descriptors_nodes(rlvc_compact *c, uint32_t *bytes) {
     uint32_t node = 0, i = 0, distinct = 0;
+    rlvc_compact_string(c, "#include <stdint.h>\n\n");
     rlvc_compact_name(
         c, rlvc_compact_fits_bytes(c) ? "static const unsigned char " : "static const unsigned ",
         "_node");
@@ -147,6 +169,7 @@ static uint32_t put_nodes(rlvc_compact *c) {
         node = rlvc_compact_next_mixed(c, node);
     } while (node != 0);
     rlvc_compact_string(c, "};\n\n");
+    *bytes += c->mixed * (rlvc_compact_fits_bytes(c) ? 3u : 12u);
     return distinct;
 }
 
@@ -162,9 +185,8 @@ static void put_tables(rlvc_compact *c, const rlvc_descriptors *d, uint32_t feat
 
 /* ------------------------------------------------------------------ functions */
 
-/* The squared distance of two vectors, or more than the limit. Floats are added in lanes, eight at
- * a time. */
-static void put_between(rlvc_compact *c, const rlvc_descriptors *d) {
+/* Floats are added in lanes, eight at a time. */
+void rlvc_export_descriptors_between(rlvc_compact *c, const rlvc_descriptors *d) {
     const int bytes = d->form == RLVC_DESCRIPTORS_INT8;
     const char *number = bytes ? "int32_t" : "float";
     rlvc_compact_name(c, "static inline float ", "_between(const ");
@@ -191,12 +213,8 @@ static void put_between(rlvc_compact *c, const rlvc_descriptors *d) {
     rlvc_compact_string(c, "    }\n    return (float)sum;\n}\n\n");
 }
 
-/* Whether a percept exhibits a feature. */
-static void put_present(rlvc_compact *c, const rlvc_descriptors *d, const rlvc_spatial *spatial) {
-    rlvc_compact_name(
-        c, "static inline unsigned ",
-        "_present(const void *percept, unsigned feature) {\n    const float radius = ");
-    rlvc_compact_name(c, "", "_radius[feature], limit = radius * radius;\n    const ");
+void rlvc_export_descriptors_percept(rlvc_compact *c, const rlvc_descriptors *d) {
+    rlvc_compact_string(c, "    const ");
     rlvc_compact_string(c, rlvc_export_descriptors_type(d));
     rlvc_compact_string(c, " *vector = (const ");
     rlvc_compact_string(c, rlvc_export_descriptors_type(d));
@@ -205,6 +223,15 @@ static void put_present(rlvc_compact *c, const rlvc_descriptors *d, const rlvc_s
                            "    for (i = 0; i < 4u; i++)\n"
                            "        ((unsigned char *)&count)[i] = "
                            "((const unsigned char *)percept)[i];\n");
+}
+
+/* Whether a percept exhibits a feature. */
+static void put_present(rlvc_compact *c, const rlvc_descriptors *d, const rlvc_spatial *spatial) {
+    rlvc_compact_name(
+        c, "static inline unsigned ",
+        "_present(const void *percept, unsigned feature) {\n    const float radius = ");
+    rlvc_compact_name(c, "", "_radius[feature], limit = radius * radius;\n");
+    rlvc_export_descriptors_percept(c, d);
     rlvc_compact_string(c, "    for (i = 0; radius >= 0.0f && i < count; i++)\n");
     rlvc_compact_name(c, "        if (", "_between(vector + i * ");
     rlvc_compact_number(c, "", d->dimensions);
@@ -214,7 +241,7 @@ static void put_present(rlvc_compact *c, const rlvc_descriptors *d, const rlvc_s
     rlvc_compact_string(c, ")\n            return 1u;\n    return 0;\n}\n\n");
 }
 
-static void put_act(rlvc_compact *c) {
+void rlvc_export_descriptors_act(rlvc_compact *c) {
     rlvc_compact_name(c, "static inline unsigned ",
                       "_act(const void *percept) {\n    unsigned at = 0;\n    do\n        at = ");
     rlvc_compact_name(c, "", "_node[at][1u + ");
@@ -231,15 +258,14 @@ uint32_t rlvc_export_descriptors(rlvc_compact *c, const rlvc_descriptors *d,
         rlvc_compact_constant(c, "const void *percept");
         return 0;
     }
-    rlvc_compact_string(c, "#include <stdint.h>\n\n");
-    const uint32_t features = put_nodes(c);
-    uint32_t bytes = c->mixed * (rlvc_compact_fits_bytes(c) ? 3u : 12u) +
-                     features * (4u + RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form));
+    uint32_t bytes = 0;
+    const uint32_t features = rlvc_export_descriptors_nodes(c, &bytes);
+    bytes += features * (4u + RLVC_DESCRIPTORS_VECTOR_BYTES(d->dimensions, d->form));
     put_tables(c, d, features, spatial != NULL ? RLVC_EXPORT_FIRST : RLVC_EXPORT_VECTOR);
-    put_between(c, d);
+    rlvc_export_descriptors_between(c, d);
     if (spatial != NULL)
         bytes += rlvc_export_spatial(c, spatial, features);
     put_present(c, d, spatial);
-    put_act(c);
+    rlvc_export_descriptors_act(c);
     return bytes;
 }

@@ -42,8 +42,7 @@ class Bags(Descriptors):
     Notes
     -----
     Percepts are those of :class:`rlvc.Descriptors`. A feature has the fields ``needed``, ``count``
-    and ``vectors``, of which the first ``count`` are the bag's. ``export_c`` of an agent does
-    not support this domain. Source: ``core/include/rlvc/bags.h``.
+    and ``vectors``, of which the first ``count`` are the bag's. Source: ``core/include/rlvc/bags.h``.
 
     Examples
     --------
