@@ -3,14 +3,73 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
+import itertools
 import math
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from .errors import ConfigError, Error
+from .errors import ArrayError, ConfigError, Error
+
+_LISTED_MAX = 1_000_000
+
+
+def shown(value: Any) -> str:
+    """Return a value as an error shows it: at most 80 characters, also where it cannot be spelt.
+
+    Parameters
+    ----------
+    value : object
+
+    Returns
+    -------
+    str
+    """
+    try:
+        return f"{value!r:.80}"
+    except Exception:  # of a class of the caller, a list within itself, an int of 5,000 digits
+        return f"<{type(value).__name__}>"
+
+
+def named(path: Any) -> str:
+    """Return the name of a file as an error shows it, also of what is no name.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    str
+    """
+    return f"{path!s:.300}" if isinstance(path, str | Path) else shown(path)
+
+
+def one_of(name: str, value: Any, words: Iterable[str], error: type[Error] = ConfigError) -> str:
+    """Check that a value is one of some words.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the error.
+    value : str
+    words : iterable of str
+    error : type
+        The exception to raise.
+
+    Returns
+    -------
+    str
+    """
+    known = list(words)
+    if not isinstance(value, str) or value not in known:
+        raise error(f"{name}: {shown(value)} is not one of {', '.join(known)}")
+    return value
 
 
 def whole(name: str, value: Any, least: int, most: int, error: type[Error] = ConfigError) -> int:
@@ -34,10 +93,10 @@ def whole(name: str, value: Any, least: int, most: int, error: type[Error] = Con
         if isinstance(value, bool):
             raise TypeError
         number = int(value.__index__())
-    except (AttributeError, TypeError):
-        raise error(f"{name}: {value!r:.80} is not a whole number: give an int") from None
+    except Exception:  # what a class of the caller raises says no more
+        raise error(f"{name}: {shown(value)} is not a whole number: give an int") from None
     if not least <= number <= most:
-        raise error(f"{name}: {number:.80g} is not in [{least}, {most}]")
+        raise error(f"{name}: {shown(number)} is not in [{least}, {most}]")
     return number
 
 
@@ -62,10 +121,10 @@ def real(name: str, value: Any, error: type[Error] = ConfigError) -> float:
         if np.ma.is_masked(value):  # it would be 0
             raise TypeError
         number = float(value.item()) if hasattr(value, "item") else float(value)
-    except (AttributeError, OverflowError, TypeError, ValueError):
-        raise error(f"{name}: {value!r:.80} is not a number: give a float") from None
+    except Exception:
+        raise error(f"{name}: {shown(value)} is not a number: give a float") from None
     if not math.isfinite(number):
-        raise error(f"{name}: {value!r:.80} is not a finite number")
+        raise error(f"{name}: {shown(value)} is not a finite number")
     return number
 
 
@@ -87,8 +146,35 @@ def listed(name: str, value: Any, of: str, error: type[Error] = ConfigError) -> 
     list
     """
     if isinstance(value, str | bytes) or not isinstance(value, Iterable):
-        raise error(f"{name}: {value!r:.80} is not a list of {of}")
-    return list(value)
+        raise error(f"{name}: {shown(value)} is not a list of {of}")
+    try:
+        found = list(itertools.islice(value, _LISTED_MAX + 1))
+    except Exception as cause:
+        raise error(f"{name}: to list its {of} raised {told(cause)}") from cause
+    if len(found) > _LISTED_MAX:
+        raise error(f"{name}: {shown(value)} lists more than {_LISTED_MAX} {of}")
+    return found
+
+
+def array(name: str, value: Any, error: type[Error] = ArrayError) -> npt.NDArray[Any]:
+    """Take a value as an array of whatever dtype and shape.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the error.
+    value : array_like
+    error : type
+        The exception to raise.
+
+    Returns
+    -------
+    ndarray
+    """
+    try:
+        return np.asarray(value)
+    except Exception as cause:  # of lists of several lengths, of a class of the caller
+        raise error(f"{name}: {shown(value)} is not an array: {told(cause)}") from cause
 
 
 def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
@@ -106,18 +192,20 @@ def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
     -------
     bool
     """
-    if getattr(value, "size", 1) == 1 and hasattr(value, "item") and not np.ma.is_masked(value):
-        value = value.item()
-    if isinstance(value, bool | int | float) and value in (0, 1):
-        return bool(value)
-    raise error(f"{name}: {value!r:.80} is not a truth value: give True or False")
+    found = value
+    with contextlib.suppress(Exception):
+        if getattr(value, "size", 1) == 1 and hasattr(value, "item") and not np.ma.is_masked(value):
+            found = value.item()
+    if isinstance(found, bool | int | float) and found in (0, 1):
+        return bool(found)
+    raise error(f"{name}: {shown(value)} is not a truth value: give True or False")
 
 
 def told(error: BaseException) -> str:
-    """Return the kind and the text of an exception, whose text may itself raise one."""
+    """Return the kind of an exception and 300 characters of its text, which may itself raise one."""
     kind = type(error).__name__
     try:
-        return f"{kind}: {error}"
+        return f"{kind}: {error!s:.300}"
     except Exception:
         return kind
 

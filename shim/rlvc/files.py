@@ -27,6 +27,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from . import _native as native
+from .checks import named
 from .errors import StoreError
 
 try:
@@ -53,7 +54,8 @@ def _need_file(mode: int) -> None:
 def _name(path: str | Path) -> str:
     try:
         name = os.fsdecode(path)
-    except TypeError:
+        os.fsencode(name)
+    except Exception:  # of another type; of no character of the system's; of a class of the caller
         raise OSError(errno.EINVAL, "not the name of a file") from None
     if "\0" in name or not name:
         raise OSError(errno.EINVAL, "not the name of a file")
@@ -116,7 +118,7 @@ def replace(path: str | Path, content: bytes) -> None:
         else:
             _replace(path, content)
     except OSError as error:
-        raise StoreError(f"{path}: cannot be written: {error.strerror}") from error
+        raise StoreError(f"{named(path)}: cannot be written: {error.strerror}") from error
 
 
 def _replace(path: str | Path, content: bytes) -> None:

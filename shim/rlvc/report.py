@@ -24,6 +24,7 @@ import numpy as np
 
 from . import files
 from .agent.agent import Agent
+from .checks import named
 from .errors import RunError
 
 VERSION = 1
@@ -195,7 +196,7 @@ def read(path: str | Path) -> dict[str, Any]:
     try:
         report = json.loads(files.read(path).decode())
     except OSError as error:
-        raise RunError(f"{path}: cannot be read: {error.strerror}") from error
+        raise RunError(f"{named(path)}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
     except json.JSONDecodeError as error:

@@ -274,7 +274,7 @@ def test_roles_and_the_past(tmp_path, capsys):
     assert command.main(["learn", *lake, "--interactions", "500", "--quiet", "--save", run, *played]) == 0
     assert command.main(["evaluate", run, *lake, *played]) == 0
     assert command.main(["evaluate", run, *lake[:-2], *played]) == 1
-    assert "an observation without 'now'" in capsys.readouterr().err
+    assert "its observations, 3 numbers, are not those of Discrete(16)" in capsys.readouterr().err
 
 
 def test_several_seeds(capsys):

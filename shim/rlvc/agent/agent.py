@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import flag
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..errors import RangeError
@@ -156,7 +157,7 @@ class Agent(Queries):
         size = self._native_domain.percept_bytes
         arrays = (before, choices, rewards, after, ends)
         native = native_log(size, self._config.actions, *arrays)
-        native.resume = bool(resume)
+        native.resume = flag("resume", resume, RangeError)
         self._loop("rlvc_shim_observe", native)
 
     def _loop(self, name: str, native: _native.ShimLog) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-import math
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from .. import _native
+from ..checks import flag, one_of, real, whole
 from ..errors import ConfigError
 from .fields import Fields
 
@@ -127,27 +127,17 @@ class Config(Fields):
 
 
 
-def _native_value(field: str, kind: object, value: object) -> object:
+_FLAGS = ("continuing", "successors", "dependence")
+
+
+def _native_value(field: str, kind: Any, value: Any) -> object:
     if field in CHOICES:
-        if value not in CHOICES[field]:
-            raise ConfigError(f"{field}: {value!r} is not one of {', '.join(CHOICES[field])}")
-        return getattr(_native, f"{field}_{value}".upper())
-    try:
-        if kind is ctypes.c_float:
-            number = float(value)  # type: ignore[arg-type]
-            if not math.isfinite(number):
-                raise ConfigError(f"{field}: {value!r} is not a finite number")
-            return number
-        whole = int(value.__index__())  # type: ignore[attr-defined]
-    except (AttributeError, TypeError, ValueError) as error:
-        if isinstance(error, ConfigError):
-            raise
-        kind_name = "a number" if kind is ctypes.c_float else "an int"
-        raise ConfigError(f"{field}: {value!r} is not {kind_name}") from None
-    limit = 2 ** (8 * ctypes.sizeof(kind))  # type: ignore[arg-type]
-    if not 0 <= whole < limit:
-        raise ConfigError(f"{field}: {whole} is out of range")
-    return whole
+        return getattr(_native, f"{field}_{one_of(field, value, CHOICES[field])}".upper())
+    if kind is ctypes.c_float:
+        return real(field, value)
+    if field in _FLAGS:
+        return flag(field, value)
+    return whole(field, value, 0, 2 ** (8 * ctypes.sizeof(kind)) - 1)
 
 
 def to_native(config: Config, domain: _native.Domain) -> _native.Config:

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import one_of, shown
 from ..domains.callbacks import Guard
 from ..domains.domain import Domain
 from ..errors import (
@@ -149,9 +150,7 @@ class Handle:
             ``form`` is unknown.
         """
         forms = {"text": _native.PRINT_TEXT, "dot": _native.PRINT_DOT, "json": _native.PRINT_JSON}
-        if not isinstance(form, str) or form not in forms:
-            raise RangeError(f"form: {form!r} is not one of {', '.join(forms)}")
-        return self._written(self._print, forms[form])
+        return self._written(self._print, forms[one_of("form", form, forms, RangeError)])
 
     def export_c(self, name: str = "policy") -> str:
         """Return the policy as a C99 header for a controller.
@@ -187,7 +186,7 @@ class Handle:
     def _identifier(name: str) -> bytes:
         """Encode the name of an exported policy; C checks that it is an identifier."""
         if not isinstance(name, str) or not name.isascii() or "\0" in name:
-            raise RangeError(f"name: {name!r:.80} is not a C identifier")
+            raise RangeError(f"name: {shown(name)} is not a C identifier")
         return name.encode()
 
     def _written(self, name: str, what: Any, *rest: Any) -> str:

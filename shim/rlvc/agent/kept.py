@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ..checks import listed, named, shown
 from ..errors import ConfigError, SnapshotError, StoreError
 from ..files import open_file, read, replace, tidy
 
@@ -84,7 +85,7 @@ def read_content(file: str | Path) -> bytes:
         tidy(file)
         return read(file)
     except OSError as error:
-        raise StoreError(f"{file}: cannot be read: {error.strerror}") from error
+        raise StoreError(f"{named(file)}: cannot be read: {error.strerror}") from error
 
 
 def write_named(file: str | Path, kind: str, names: Sequence[str], head: dict[str, Any],
@@ -99,13 +100,10 @@ def write_named(file: str | Path, kind: str, names: Sequence[str], head: dict[st
     head : dict
     body : bytes
     """
-    try:
-        listed = list(names)
-    except TypeError:
-        listed = [None]  # type: ignore[list-item]
-    if isinstance(names, str) or not all(isinstance(name, str) for name in listed):
-        raise ConfigError(f"names: {names!r:.80} is not a list of str")
-    replace(file, pack(kind, head | {"names": listed}, body))
+    known = listed("names", names, "str")
+    if not all(isinstance(name, str) for name in known):
+        raise ConfigError(f"names: {shown(names)} is not a list of str")
+    replace(file, pack(kind, head | {"names": known}, body))
 
 
 def is_kind(file: str | Path, kind: str) -> bool:

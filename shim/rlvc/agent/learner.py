@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
+from ..checks import flag, shown, whole
 from ..domains.bags import Bags
 from ..domains.bits import Bits
 from ..domains.callbacks import Guard
@@ -180,6 +180,9 @@ class Learner(Handle, Generic[_D, _C]):
         """
         if choice is not self._chosen:
             self._choose(choice)
+        if terminated.__class__ is not bool or truncated.__class__ is not bool:
+            terminated = flag("terminated", terminated, RangeError)
+            truncated = flag("truncated", truncated, RangeError)
         packed = None
         if percept is not None:
             packed = self._pack(percept)
@@ -194,10 +197,8 @@ class Learner(Handle, Generic[_D, _C]):
                 packed,
                 1 if terminated else 2 if truncated else 0,
             )
-        except ValueError:
-            raise RangeError("terminated and truncated must be True or False") from None
         except ctypes.ArgumentError:
-            raise RewardError(f"a reward must be a number, not {reward!r:.80}") from None
+            raise RewardError(f"a reward must be a number, not {shown(reward)}") from None
         if status:
             self._fail(status)
 
@@ -206,15 +207,15 @@ class Learner(Handle, Generic[_D, _C]):
         try:
             action, exploited = choice if isinstance(choice, tuple) else (choice, False)
             number = int(action.__index__())
-        except (AttributeError, TypeError, ValueError):
+        except Exception:
             raise RangeError(
-                f"an action must be an int or the result of act(), not {choice!r:.80}"
+                f"an action must be an int or the result of act(), not {shown(choice)}"
             ) from None
         if not 0 <= number < self._config.actions:
-            raise RangeError(f"action {number} is not in [0, {self._config.actions})")
+            raise RangeError(f"action {shown(number)} is not in [0, {self._config.actions})")
         self._chosen = _NOTHING
         self._choice.action = number
-        self._choice.exploited = bool(exploited)
+        self._choice.exploited = flag("exploited", exploited, RangeError)
 
     # -------------------------------------------------------------- learning
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
+from ..checks import array, whole
 from ..errors import ArrayError, BlockError, RangeError
 
 _byref = ctypes.byref
@@ -84,10 +84,10 @@ def min_tree(
     >>> min_tree(both, np.array([[1, 0], [1, 0], [1, 0], [0, 1]], bool)).leaves
     3
     """
-    rows, allowed = np.asarray(rows), np.asarray(allowed)
-    for name, array in (("rows", rows), ("allowed", allowed)):
-        if array.dtype != np.bool_ or array.ndim != 2 or len(array) != len(rows):
-            raise ArrayError(f"{name}: {array.dtype}{list(array.shape)}, expected bool[n, ...]")
+    rows, allowed = array("rows", rows), array("allowed", allowed)
+    for name, given in (("rows", rows), ("allowed", allowed)):
+        if given.dtype != np.bool_ or given.ndim != 2 or len(given) != len(rows):
+            raise ArrayError(f"{name}: {given.dtype}{list(given.shape)}, expected bool[n, ...]")
     if allowed.shape[1] > 64:
         raise RangeError(f"allowed: {allowed.shape[1]} actions, more than 64")
     entries = whole("entries", entries, 1, 2**28, RangeError)

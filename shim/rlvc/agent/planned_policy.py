@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _native
-from ..checks import real, whole
+from ..checks import listed, real, shown, whole
 from ..domains.callbacks import Guard
 from ..domains.thresholds import Thresholds
 from ..errors import Error, RangeError, SnapshotError
@@ -55,7 +55,7 @@ class PlannedPolicy(Policy):
 
     def __init__(self, domain: Thresholds, actions: int, nodes: Sequence[Sequence[Any]]) -> None:
         self.actions = whole("actions", actions, 1, _native.PLANNER_ACTIONS_MAX, RangeError)
-        self.nodes = [_node(*node) for node in nodes]
+        self.nodes = [_node(node) for node in listed("nodes", nodes, "nodes", RangeError)]
         size, guard = _native.PLANNER_POLICY_BYTES, Guard()
         block = allocated(size, "a policy", "close what is not needed")
         native = domain.native(guard)
@@ -123,8 +123,12 @@ class PlannedPolicy(Policy):
         return type(self), (self._thresholds, self.actions, self.nodes)
 
 
-def _node(cutpoint: Any, component: Any, child: Any, action: Any) -> tuple[float, int, int, int]:
+def _node(node: Any) -> tuple[float, int, int, int]:
     """Check the types of a node, and that its numbers fit into C's."""
+    fields = listed("node", node, "fields", RangeError)
+    if len(fields) != 4:
+        raise RangeError(f"node: {shown(node)} is not (cutpoint, component, child, action)")
+    cutpoint, component, child, action = fields
     return (
         real("cutpoint", cutpoint, RangeError),
         whole("component", component, 0, 2**16 - 1, RangeError),

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import whole
-from ..errors import PerceptError
+from ..errors import DomainError, PerceptError
 from .callbacks import Guard
 from .domain import Domain, Percept
 
@@ -45,7 +45,8 @@ class Bits(Domain):
 
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:
         """Whether the bit is 1."""
-        return bool(percept[int(feature) // 8] >> (int(feature) % 8) & 1)
+        record, bit = self.pack(percept), self._bit(feature)
+        return bool(record[bit // 8] >> bit % 8 & 1)
 
     def candidates(self, percepts: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Return all bits, in order."""
@@ -53,7 +54,10 @@ class Bits(Domain):
 
     def name(self, feature: Any) -> str:
         """Return ``bit`` and the index."""
-        return f"bit {int(feature)}"
+        return f"bit {self._bit(feature)}"
+
+    def _bit(self, feature: Any) -> int:
+        return whole("feature", feature, 0, self.bits - 1, DomainError)
 
     def pack(self, percept: Percept) -> bytes:
         """Like :meth:`Domain.pack`, and also accepts bool [bits]."""

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import array, shown
 from ..errors import ConfigError, DomainError, PerceptError
 from .callbacks import Guard
 from .domain import Domain
@@ -44,9 +45,9 @@ class BuiltinDomain(Domain):
 
     def _record(self, feature: Any) -> bytes:
         """Return the bytes of a feature."""
-        value = np.asarray(feature)
+        value = array("feature", feature, DomainError)
         if value.dtype != self.feature_dtype or value.shape != ():
-            raise DomainError(f"{feature!r:.80} is not a feature of {type(self).__name__}")
+            raise DomainError(f"{shown(feature)} is not a feature of {type(self).__name__}")
         return value.tobytes()
 
     def exhibits(self, percept: npt.NDArray[Any], feature: Any) -> bool:

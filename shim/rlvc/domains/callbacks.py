@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import shown
 from ..errors import DomainError
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ class Callbacks:
         one = self.percepts(ctypes.string_at(percept, self.percept_bytes), 1)[0]
         answer = self.domain.exhibits(one, self.feature(feature))
         if not isinstance(answer, bool | np.bool_):
-            raise DomainError(f"exhibits() returned {answer!r:.80}, expected a bool")
+            raise DomainError(f"exhibits() returned {shown(answer)}, expected a bool")
         return int(answer)
 
     def check_percept(self, percept: int) -> int:
@@ -117,7 +118,7 @@ class Callbacks:
         """Ask a check of the domain."""
         answer = getattr(self.domain, method)(record)
         if not isinstance(answer, bool | np.bool_):
-            raise DomainError(f"{method}() returned {answer!r:.80}, expected a bool")
+            raise DomainError(f"{method}() returned {shown(answer)}, expected a bool")
         return int(answer)
 
     def name(self, feature: int, text: int, room: int) -> int:
@@ -159,7 +160,7 @@ class Callbacks:
         samples = _native.Samples.from_address(address)
         answer = domain.detect(self.gather(samples, first, n), offered)
         if not isinstance(answer, np.ndarray) or answer.dtype != np.bool_ or answer.shape != (n, m):
-            raise DomainError(f"detect() returned {answer!r:.80}, expected bool[{n}, {m}]")
+            raise DomainError(f"detect() returned {shown(answer)}, expected bool[{n}, {m}]")
         words = np.zeros((m, _native.DETECT_SAMPLES // 8), np.uint8)
         packed = np.packbits(answer.T, axis=1, bitorder="little")
         words[:, : packed.shape[1]] = packed
@@ -181,10 +182,10 @@ class Callbacks:
             record = np.array([proposed]).astype(self.feature_dtype, casting="same_kind").tobytes()
         except (AttributeError, TypeError, ValueError) as error:
             raise DomainError(
-                f"oracle() returned {answer!r:.80}, expected (feature, considered) or None"
+                f"oracle() returned {shown(answer)}, expected (feature, considered) or None"
             ) from error
         if len(record) != self.feature_bytes or not 1 <= count < 2**32:
-            raise DomainError(f"oracle() returned {answer!r:.80}: considered must be in [1, 2**32)")
+            raise DomainError(f"oracle() returned {shown(answer)}: considered must be in [1, 2**32)")
         ctypes.memmove(feature, record, len(record))
         return count
 
@@ -198,11 +199,11 @@ def checked_name(name: object, room: int = _native.NAME_BYTES) -> bytes:
         It is not a str, is too long, or has a character that JSON or DOT would have to escape.
     """
     if not isinstance(name, str):
-        raise DomainError(f"name() returned {name!r:.80}, expected a str")
+        raise DomainError(f"name() returned {shown(name)}, expected a str")
     encoded = name.encode(errors="replace")
     if len(encoded) >= room or any(ord(sign) < 32 or sign in '"\\\x7f' for sign in name):
         raise DomainError(
-            f"name() returned {name!r:.80}: at most {room - 1} bytes are allowed, and no quote, "
+            f"name() returned {shown(name)}: at most {room - 1} bytes are allowed, and no quote, "
             "backslash or control character"
         )
     return encoded

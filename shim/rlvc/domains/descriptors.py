@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import real, whole
-from ..errors import ConfigError, PerceptError
+from ..checks import array, one_of, real, whole
+from ..errors import PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
 
@@ -69,9 +69,8 @@ class Descriptors(BuiltinDomain):
         candidates = whole("candidates", candidates, 1, _native.DESCRIPTORS_CANDIDATES_MAX)
         draws = whole("draws", draws, 1, _native.DESCRIPTORS_DRAWS_MAX)
         radius, margin = real("radius", radius), real("margin", margin)
+        one_of("form", form, ("float", "int8"))
         self.parameters = (points, dimensions, radius, form, candidates, draws, margin)
-        if form not in ("float", "int8"):
-            raise ConfigError(f"form: {form!r} is not one of float, int8")
         self._build(
             self._native_parameters(
                 _native.Descriptors(
@@ -135,6 +134,7 @@ class Descriptors(BuiltinDomain):
 
     def is_one(self, percept: Any) -> bool:
         """Whether this is a single percept, not an array of packed percepts."""
-        return isinstance(percept, bytes) or not (
-            np.ndim(percept) == 2 and getattr(percept, "dtype", None) == np.uint8
-        )
+        if isinstance(percept, bytes):
+            return True
+        found = array("percept", percept, PerceptError)
+        return found.ndim != 2 or found.dtype != np.uint8

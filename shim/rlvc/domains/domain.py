@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
+from ..checks import array, shown, whole
 from ..errors import ConfigError, DomainError, PerceptError
 from .callbacks import Callbacks, Guard
 
@@ -200,10 +200,14 @@ class Domain(abc.ABC):
 
     def is_one(self, percept: Any) -> bool:
         """Whether this is a single percept, not an array of percepts."""
-        return isinstance(percept, bytes) or np.ndim(percept) == len(self.percept_shape)
+        return isinstance(percept, bytes) or array(
+            "percept", percept, PerceptError
+        ).ndim == len(self.percept_shape)
 
     def feature(self, record: bytes) -> Any:
         """Return the feature with these bytes."""
+        if not isinstance(record, bytes) or len(record) != self.feature_dtype.itemsize:
+            raise DomainError(f"{shown(record)} is not {self.feature_dtype.itemsize} bytes")
         return np.frombuffer(record, self.feature_dtype)[0]
 
     def native(self, guard: Guard) -> _native.Domain:
@@ -238,7 +242,7 @@ def checked_pack(pack: Callable[[Any], Any], size: int) -> Callable[[Any], bytes
     def checked(percept: Any) -> bytes:
         packed = pack(percept)
         if type(packed) is not bytes or len(packed) != size:
-            raise DomainError(f"pack() returned {packed!r:.80}, expected {size} bytes")
+            raise DomainError(f"pack() returned {shown(packed)}, expected {size} bytes")
         return packed
 
     return checked
@@ -269,7 +273,7 @@ def checked_pack_many(
             or not packed.flags.c_contiguous
         ):
             raise DomainError(
-                f"pack_many() returned {packed!r:.80}, expected an array of n times {size} bytes"
+                f"pack_many() returned {shown(packed)}, expected an array of n times {size} bytes"
             )
         return packed
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import flag, whole
+from ..checks import flag, shown, whole
 from ..errors import DomainError, PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
@@ -73,7 +73,7 @@ class Thresholds(BuiltinDomain):
     def _record(self, feature: Any) -> bytes:
         record = super()._record(feature)
         if max(int(feature["component"]), int(feature["other"])) >= self.components:
-            raise DomainError(f"{feature!r:.80} tests a component that there is not")
+            raise DomainError(f"{shown(feature)} tests a component that there is not")
         return record
 
     def check_many(self, packed: npt.NDArray[Any]) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
-from ..checks import real, whole
+from ..checks import real, shown, whole
 from ..errors import ConfigError, PictureError
 from .moving import Moving
 
@@ -193,7 +193,7 @@ class GroundView(Moving[_Picture]):
 def _within(name: str, value: Any, low: float, high: float) -> float:
     number = real(name, value)
     if not low <= number <= high:
-        raise ConfigError(f"{name}: {value!r} is not in [{low:g}, {high:g}]")
+        raise ConfigError(f"{name}: {shown(value)} is not in [{low:g}, {high:g}]")
     return number
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
+from ..checks import shown, whole
 from ..errors import MazeError
 
 _CELLS_MAX = 256 * 256
@@ -41,7 +41,7 @@ class Maze:
 
     def __init__(self, text: str | None = None) -> None:
         if text is not None and not isinstance(text, str):
-            raise MazeError(f"maze: {text!r:.80} is not text")
+            raise MazeError(f"maze: {shown(text)} is not text")
         if text is None:
             self.native = _native.call.rlvc_shim_sutton()[0]
         else:

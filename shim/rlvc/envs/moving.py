@@ -10,6 +10,8 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
+from ..checks import shown
+
 _Observation = TypeVar("_Observation")
 
 
@@ -83,7 +85,7 @@ class Moving(gymnasium.Env[_Observation, np.int64], Generic[_Observation]):
             The episode is over.
         """
         if not self.action_space.contains(action):
-            raise gymnasium.error.InvalidAction(f"{action!r} is not in [0, 3]")
+            raise gymnasium.error.InvalidAction(f"{shown(action)} is not in [0, 3]")
         if self._over:
             raise gymnasium.error.ResetNeeded("call reset first")
         reward, terminated, truncated = self._move(int(action))

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import flag, whole
+from ..checks import flag, shown, whole
 from ..counts.part import Part, Question
 from ..counts.rounds import CELL_BITS_MAX, Progress
 from ..errors import ConfigError, CountError, LogError
@@ -103,7 +103,7 @@ def _check(sample: Any, cell: tuple[int, ...], question: Question) -> None:
     if sample.dtype != np.uint8 or sample.ndim != 2 or sample.shape[1] not in (1, percept_bytes):
         raise CountError(f"sample: {sample.dtype}{list(sample.shape)}")
     if list(cell) != sorted(set(cell)) or len(cell) > CELL_BITS_MAX:
-        raise CountError(f"cell: {cell!r:.80}")
+        raise CountError(f"cell: {shown(cell)}")
     if cell and cell[-1] >= question.features:
         raise CountError(f"cell: {cell[-1]} is not in [0, {question.features})")
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import whole
+from ..checks import shown, whole
 from ..counts.table import Columns
 from ..errors import ConfigError, LogError, StoreError
 from ..files import replace
@@ -85,9 +85,9 @@ def convert(
     """
     file_rows = whole("file_rows", file_rows, 1, 2**31)
     if not isinstance(folder, str | Path) or not str(folder):
-        raise ConfigError(f"folder: {folder!r:.80} is not the name of a folder")
+        raise ConfigError(f"folder: {shown(folder)} is not the name of a folder")
     if not isinstance(prefix, str) or Path(prefix).name != prefix or "\0" in prefix:
-        raise ConfigError(f"prefix: {prefix!r:.80} cannot begin the name of a file")
+        raise ConfigError(f"prefix: {shown(prefix)} cannot begin the name of a file")
     source = read(log, columns)
     all_of_it, bits, _ = columns_of_log(source, encoder, space)
     count = whole("actions", actions or source.known.count, 1, 255)

@@ -13,6 +13,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
+from ..checks import shown
 from ..errors import ConfigError
 from .counting import Seen
 from .sources import Piece
@@ -268,5 +269,5 @@ def engine_of(cluster: str | None, workers: int | None = None) -> Engine:
     if isinstance(cluster, str) and (cluster == "dask" or cluster.startswith(("tcp://", "tls://"))):
         return Dask(cluster, workers)
     raise ConfigError(
-        f"cluster: {cluster!r:.80} is neither None, 'ray', 'ray://...', 'dask', 'tcp://...' nor 'tls://...'"
+        f"cluster: {shown(cluster)} is neither None, 'ray', 'ray://...', 'dask', 'tcp://...' nor 'tls://...'"
     )

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from ..agent.agent import Agent
-from ..checks import flag, real, whole
+from ..checks import flag, one_of, real, shown, whole
 from ..counts import rounds
 from ..counts.table import MEMORY
 from ..domains.bits import Bits
@@ -137,8 +137,7 @@ def learn_from(
     CountError
         There are too many distinct rows, or the tree tests too many features.
     """
-    if method not in get_args(Method):
-        raise ConfigError(f"method: {method!r:.80} is not one of {', '.join(get_args(Method))}")
+    one_of("method", method, get_args(Method))
     asked = {
         "domain": domain,
         "reward_bits": reward_bits,
@@ -151,7 +150,7 @@ def learn_from(
     seed = whole("seed", config.pop("seed", 1), 0, 2**32 - 1)
     skip = flag("skip_broken", skip_broken)
     if not isinstance(checkpoint, str | Path | None):
-        raise ConfigError(f"checkpoint: {checkpoint!r:.80} is not the name of a file")
+        raise ConfigError(f"checkpoint: {shown(checkpoint)} is not the name of a file")
     found = opened(source, real=method == "planner")
     count = whole("actions", actions if actions is not None else found.actions, 1, 255)
     job: Callable[[Engine, Bar], FleetRun]

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ..checks import shown
 from ..errors import LogError
 from . import layout
 
@@ -19,7 +20,7 @@ def filesystem_of(path: str) -> tuple[Any, str]:
     """
     pa = layout.arrow()
     if "\0" in path:
-        raise LogError(f"{path!r:.80}: not the name of a file")
+        raise LogError(f"{shown(path)}: not the name of a file")
     if "://" not in path:
         return pa.fs.LocalFileSystem(), path
     try:

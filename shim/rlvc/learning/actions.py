@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import whole
+from ..checks import listed, shown, whole
 from ..errors import ConfigError, LogError, SpaceError
 from ..words import shortest
 
@@ -57,7 +57,7 @@ class Actions:
         words: Sequence[str] = (),
     ) -> None:
         self.count, self.start, self.table, self.hold = count, start, table, hold
-        self.words = [str(word) for word in words]
+        self.words = [str(word) for word in listed("words", words, "names")]
 
     def of(self, index: int) -> Any:
         """Return an action: an int of a Discrete space, else an array."""
@@ -276,6 +276,6 @@ def indices_of(actions: Any, known: Actions, where: str) -> npt.NDArray[np.int64
         bad = np.flatnonzero(distances.min(axis=1) > 1e-6 * (1 + np.abs(flat).max()))
     if len(bad):
         raise LogError(
-            f"{where}: actions: index {bad[0]}: {actions[bad[0]]!r:.80} is not an action of the space"
+            f"{where}: actions: index {bad[0]}: {shown(actions[bad[0]])} is not an action of the space"
         )
     return np.asarray(indices, np.int64)

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import flag, real, told
+from ..checks import flag, real, shown, told
 from ..errors import EnvError, Error, RewardError
 
 _OLD = (
@@ -33,10 +33,13 @@ def check(env: Any) -> None:
     env : object
     """
     if isinstance(env, str):
-        raise EnvError(f"env: {env!r} is a name: pass gymnasium.make({env!r})")
+        raise EnvError(f"env: {shown(env)} is a name: pass gymnasium.make({shown(env)})")
     for name in ("reset", "step", "action_space", "observation_space"):
-        if not hasattr(env, name):
-            raise EnvError(f"env: {type(env).__name__} is not an environment: it has no {name}")
+        try:
+            getattr(env, name)
+        except Exception as error:  # it has none, or making it fails
+            kind = type(env).__name__
+            raise EnvError(f"env: {kind} is not an environment: {told(error)}") from error
     try:
         parameters = inspect.signature(env.reset).parameters
     except (TypeError, ValueError):  # of a function in C
@@ -61,7 +64,7 @@ def reset(env: Any, **arguments: Any) -> Any:
     """
     returned = _called("reset", env.reset, **arguments)
     if not isinstance(returned, tuple) or len(returned) != 2 or not isinstance(returned[1], dict):
-        raise EnvError(f"reset() returned {returned!r:.80}, expected (observation, info): {_OLD}")
+        raise EnvError(f"reset() returned {shown(returned)}, expected (observation, info): {_OLD}")
     return returned
 
 
@@ -143,14 +146,14 @@ def _called(name: str, method: Callable[..., Any], *arguments: Any, **options: A
     except Error:
         raise
     except Exception as error:
-        call = f"{name}({', '.join(f'{argument!r:.80}' for argument in arguments)})"
+        call = f"{name}({', '.join(f'{shown(argument)}' for argument in arguments)})"
         fault = told(error)
         raise EnvError(f"{call} of the environment raised {fault}") from error
 
 
 def _five(returned: Any) -> Any:
     if not isinstance(returned, tuple) or len(returned) != 5:
-        count = f"{len(returned)} values" if isinstance(returned, tuple) else f"{returned!r:.80}"
+        count = f"{len(returned)} values" if isinstance(returned, tuple) else f"{shown(returned)}"
         raise EnvError(
             f"step() returned {count}, expected (observation, reward, terminated, truncated, info)"
             + (f": {_OLD}" if count == "4 values" else "")
@@ -165,12 +168,12 @@ def _each(values: Any, name: str, count: int) -> list[Any]:
     except TypeError:
         listed = []
     if len(listed) != count:
-        raise EnvError(f"{name}: {values!r:.80} is not an array of {count} elements")
+        raise EnvError(f"{name}: {shown(values)} is not an array of {count} elements")
     return listed
 
 
 def _reward(name: str, value: Any) -> float:
     reward = real(name, value, RewardError)
     if abs(reward) > _native.REWARD_MAX:
-        raise RewardError(f"{name}: {value!r:.80} is not in [-1e12, 1e12]: scale the rewards")
+        raise RewardError(f"{name}: {shown(value)} is not in [-1e12, 1e12]: scale the rewards")
     return reward

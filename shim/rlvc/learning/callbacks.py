@@ -12,7 +12,7 @@ import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..checks import real, whole
+from ..checks import real, shown, whole
 from ..errors import ConfigError
 from ..files import replace
 from . import boundary
@@ -104,7 +104,7 @@ class CheckpointCallback(_Every):
     def __init__(self, file: str | Path, every: int = 10_000) -> None:
         super().__init__(every)
         if not isinstance(file, str | Path):
-            raise ConfigError(f"file: {file!r:.80} is not the name of a file")
+            raise ConfigError(f"file: {shown(file)} is not the name of a file")
         self.file = str(file)
 
     def __call__(self, run: Run) -> None:

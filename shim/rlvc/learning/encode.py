@@ -25,7 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import listed
+from ..checks import array, listed, shown, told
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
@@ -183,7 +183,7 @@ class Encoder:
             words = [] if isinstance(names, str) else listed("names", names, "names")
             if len(words) != len(given):
                 raise ConfigError(
-                    f"names: {names!r:.80}: give a list of {len(given)} names for {space!s:.80}"
+                    f"names: {shown(names)}: give a list of {len(given)} names for {space!s:.80}"
                 )
             given = [str(word) for word in words]
         self._settle(parts, thresholds, given)
@@ -291,7 +291,7 @@ class Encoder:
                 if index >= 0:
                     record: bytes = self._table[index]
                     return record
-            except (AttributeError, IndexError, TypeError):
+            except Exception:
                 pass  # the way below says what is wrong, or takes an array of one
         if self._columns:
             observation = self._by_name(observation)
@@ -314,7 +314,7 @@ class Encoder:
             row = [observation]
         if len(row) != len(self._columns):
             raise PerceptError(
-                f"observation: {observation!r:.80} has {len(row)} elements, expected "
+                f"observation: {shown(observation)} has {len(row)} elements, expected "
                 f"{', '.join(self._columns)}"
             )
         return dict(zip(self._columns, row, strict=True))
@@ -331,12 +331,12 @@ class Encoder:
         bool
         """
         part = self._parts[0]
-        if self._columns and not hasattr(observation, "keys"):
-            return np.ndim(observation[0]) > 0  # rows of a table
         try:
+            if self._columns and not hasattr(observation, "keys"):
+                return np.ndim(observation[0]) > 0  # rows of a table
             value = part.of(observation)
             return np.ndim(value) > len(part.shape) and (part.size > 1 or np.shape(value) != (1,))
-        except (PerceptError, ValueError):
+        except Exception:  # to encode it says what is wrong
             return False
 
     def encode_many(self, observations: Any) -> npt.NDArray[Any]:
@@ -351,7 +351,7 @@ class Encoder:
         ndarray, [n, *percept_shape] of the domain
         """
         if self._table is not None:
-            indices = np.asarray(observations)
+            indices = array("observations", observations, PerceptError)
             if indices.dtype.kind in "iu" and indices.ndim == 1 and len(indices):
                 indices = indices - self._first
                 if indices.min() >= 0 and indices.max() < len(self._rows):
@@ -362,10 +362,10 @@ class Encoder:
         try:
             columns = [part.columns(part.of(observations)) for part in self._parts]
             joined = columns[0] if len(columns) == 1 else np.concatenate(columns, axis=1)
-        except (IndexError, OverflowError, TypeError, ValueError) as error:
-            if isinstance(error, PerceptError):
-                raise
-            raise PerceptError(f"a batch that is not of the space: {error}") from error
+        except PerceptError:
+            raise
+        except Exception as error:
+            raise PerceptError(f"a batch that is not of the space: {told(error)}") from error
         if isinstance(self.domain, Bits):
             packed = np.packbits(joined.astype(np.bool_), axis=1, bitorder="little")
             return np.ascontiguousarray(packed)

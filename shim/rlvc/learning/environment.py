@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import shown
 from ..errors import ConfigError, EnvError
 from . import boundary
 from .actions import Actions
@@ -121,7 +122,7 @@ class Environment:
         try:
             observations = list(iterate(self.env.observation_space, batch))
         except Exception as error:  # whatever Gymnasium raises
-            raise EnvError(f"observations: {batch!r:.80} cannot be taken apart: {error}") from error
+            raise EnvError(f"observations: {shown(batch)} cannot be taken apart: {error}") from error
         if len(observations) != self.count:
             raise EnvError(f"observations: {len(observations)}, expected {self.count}")
         return observations

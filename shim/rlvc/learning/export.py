@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..checks import shown
 from ..errors import RangeError
 from .encode import Encoder
 
@@ -19,8 +20,8 @@ _WIDTH = 90
 
 def header(run: Run, name: str) -> str:
     """Return the header: see :meth:`rlvc.Run.export_c`."""
-    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]{0,47}", name):
-        raise RangeError(f"name: {name!r:.80} is not an identifier of C of at most 48 characters")
+    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]{0,47}", name):
+        raise RangeError(f"name: {shown(name)} is not an identifier of C of at most 48 characters")
     text = _masks(run, name) + run.acting.export_c(name)
     more = _percept(run) + _actions(run, name)
     if not more:

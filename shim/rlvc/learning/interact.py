@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..agent.batch import Batch
+from ..checks import shown
 from ..domains.domain import Domain
 from ..errors import PerceptError
 from .encode import Encoder
@@ -88,7 +89,7 @@ def encoding(encoder: Any, domain: Domain) -> Callable[[Any], bytes]:
         record = encode(observation)
         if not isinstance(record, bytes) or len(record) != domain.percept_bytes:
             raise PerceptError(
-                f"the encoder returned {record!r:.80}, expected {domain.percept_bytes} bytes"
+                f"the encoder returned {shown(record)}, expected {domain.percept_bytes} bytes"
             )
         return record
 

@@ -15,7 +15,7 @@ from ..agent.config import Config
 from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.planner_config import PlannerConfig
-from ..checks import known, whole
+from ..checks import flag, known, one_of, shown, whole
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
@@ -110,8 +110,8 @@ def default_config(actions: int, interactions: int, seed: int, changes: dict[str
 
 def _method(wanted: str | None, domain: Domain, actions: int) -> str:
     """Choose the method: as wanted, or a planner where it can learn."""
-    if wanted not in (None, *get_args(Method)):
-        raise ConfigError(f"method: {wanted!r:.80} is not one of {', '.join(get_args(Method))}")
+    if wanted is not None:
+        one_of("method", wanted, get_args(Method))
     why = planning.refusal(domain, actions)
     if wanted == "planner" and why:
         raise ConfigError(f"method: {why}")
@@ -223,7 +223,7 @@ def learn(
     stream.start(run.actions, seed)
     run.small = run.compaction = None
     learner = Interaction(stream, interactions, every, run.interactions)
-    bar = _bar(interactions, progress)
+    bar = _bar(interactions, flag("progress", progress))
     try:
         for splits in _steps(run, learner):
             run.masked = run.masked or stream.masked
@@ -251,14 +251,14 @@ def _callbacks(callback: Any) -> list[Callable[[Run], object]]:
         if isinstance(call, type):
             raise ConfigError(f"callback: {call.__name__} is a class: make one, and pass that")
         if not callable(call):
-            raise ConfigError(f"callback: {call!r:.80} is not a function")
+            raise ConfigError(f"callback: {shown(call)} is not a function")
     return calls
 
 
 def _need_same(run: Run, given: list[Any], hold: int) -> None:
     """Raise ConfigError if a run cannot go on in an environment, or is given other settings."""
     if not isinstance(run, Run):
-        raise ConfigError(f"run: {run!r:.80} is not a run that rlvc.learn returned")
+        raise ConfigError(f"run: {shown(run)} is not a run that rlvc.learn returned")
     if any(value is not None for value in given) or hold not in (1, run.actions.hold):
         raise ConfigError("run: it keeps its encoder, actions, method and config: leave them out")
     if isinstance(run.learner, PlannedPolicy):

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import listed, told, whole
+from ..checks import listed, shown, told, whole
 from ..errors import ConfigError, EnvError
 from .callbacks import EvalCallback
 from .learn import learn
@@ -58,7 +58,7 @@ def _made(env: Any) -> Any:
 
     if not isinstance(env, str) and not callable(env):
         raise EnvError(
-            f"env: {env!s:.80}: give its name, or a function that makes one, as each seed has its own"
+            f"env: {shown(env)}: give its name, or a function that makes one, as each seed has its own"
         )
     try:
         return gymnasium.make(env) if isinstance(env, str) else env()

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..agent.agent import Agent
+from ..checks import shown
 from ..errors import ConfigError, MaskWarning
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ def masks_of(mask: Any, count: int, actions: int) -> npt.NDArray[np.bool_] | Non
     """
     try:
         masks = np.asarray(mask)
-    except ValueError:  # ragged
+    except Exception:  # ragged, or of a class of the caller
         return None
     if masks.size != count * actions or masks.dtype.kind not in "biuf":
         return None
@@ -121,7 +122,7 @@ def at_hand(run: Run, observation: Any, given: Any, count: int) -> npt.NDArray[n
         masks = masks_of(given, count, actions)
         if masks is None:
             raise ConfigError(
-                f"action_masks: {given!r:.80}: expected {actions} truth values"
+                f"action_masks: {shown(given)}: expected {actions} truth values"
                 + (f" for each of {count} observations" if count > 1 else "")
             )
         return masks

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import shown
 from ..errors import PerceptError, SpaceError
 
 Array = npt.NDArray[Any]
@@ -136,18 +137,18 @@ class Part:
         where = prefix(self.path) or "observation"
         if self.kind == "word":
             known = ", ".join(self.words)
-            return PerceptError(f"{where}: {value!r:.80} is none of the words {known:.200}")
-        return PerceptError(f"{where}: {value!r:.80} is not an element of the observation space")
+            return PerceptError(f"{where}: {shown(value)} is none of the words {known:.200}")
+        return PerceptError(f"{where}: {shown(value)} is not an element of the observation space")
 
     def _array(self, value: Any) -> Array:
         """The value as an array of the right shape."""
-        if np.ma.is_masked(value):
-            raise self._wrong(value)
         try:
             array = np.asarray(value)
+            if np.ma.is_masked(value):
+                raise TypeError
             if self.size == 1 and array.size == 1:
                 array = array.reshape(self.shape)
-        except (OverflowError, TypeError, ValueError):
+        except Exception:
             raise self._wrong(value) from None
         if array.shape != self.shape:
             raise self._wrong(value)
@@ -159,7 +160,7 @@ class Part:
             listed = [operator.index(value)]
             if self.kind == "numbers" and self.size != 1:
                 raise TypeError
-        except TypeError:
+        except Exception:
             array = self._array(value)
             if array.dtype.kind not in "biu":
                 raise self._wrong(value) from None
@@ -301,4 +302,4 @@ def parts_of(space: Any, path: tuple[Any, ...]) -> list[Part]:
     if isinstance(space, spaces.Box):
         return [Part("reals", path, tuple(space.shape))]
     where = f"{prefix(path)}: " if path else ""
-    raise SpaceError(f"{where}cannot encode {space}")
+    raise SpaceError(f"{where}cannot encode {shown(space)}")

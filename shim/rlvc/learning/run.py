@@ -18,6 +18,7 @@ from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.policy import Policy
 from ..agent.results import PlannerStatistics
+from ..checks import one_of
 from ..errors import PerceptError, RunError
 from ..files import replace
 from ..words import explain
@@ -271,7 +272,7 @@ class Run:
                 return self.actions.of_many(chosen)
             return self.act(observation, action_masks)
         except PerceptError:
-            if isinstance(observation, tuple) and isinstance(observation[-1], dict):
+            if isinstance(observation, tuple) and observation and isinstance(observation[-1], dict):
                 raise PerceptError(
                     "observation: a pair (observation, info), as reset() returns: pass the first"
                 ) from None
@@ -541,9 +542,7 @@ class Run:
         """
         from .. import plot
 
-        if kind not in plot.KINDS:
-            raise RunError(f"kind: {kind!r:.80} is not one of {', '.join(plot.KINDS)}")
-        return plot.KINDS[kind](self, file, **arguments)
+        return plot.KINDS[one_of("kind", kind, plot.KINDS, RunError)](self, file, **arguments)
 
     def _repr_html_(self) -> str:
         """Show the tree in a notebook: as a picture, or as text where Graphviz is missing."""

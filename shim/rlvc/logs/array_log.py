@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..checks import shown
 from ..errors import LogError
 from ..files import open_file
 from ..learning.actions import Actions
@@ -158,7 +159,7 @@ def _array(values: Any, name: str, where: str) -> Array:
         raise LogError(f"{where}: {name}: not an array: {error}") from error
     if array.ndim == 0:
         packed = ": write it unpacked" if isinstance(values, str | bytes) else ""
-        raise LogError(f"{where}: {name}: not an array but {values!r:.80}{packed}")
+        raise LogError(f"{where}: {name}: not an array but {shown(values)}{packed}")
     if array.dtype.kind not in "bfiuUO" or (array.ndim > 1 and array.shape[1:].count(0)):
         raise LogError(
             f"{where}: {name}: {array.dtype}{list(array.shape)}: no numbers and no words"

@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 from typing import IO, Any
 
+from ..checks import named
 from ..errors import LogError
 from ..files import open_file
 from .log import counted
@@ -60,7 +61,7 @@ def content_of(path: str | Path) -> bytes:
             file.seek(0)
             return file.read()
     except OSError as error:
-        raise LogError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise LogError(f"{named(path)}: cannot be read: {error.strerror or error}") from error
     except LogError:
         raise
     except Exception as error:  # of zlib, lzma and zipfile

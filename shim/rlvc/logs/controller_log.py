@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import _native
 from ..agent.results import CHOICE
+from ..checks import named
 from ..errors import LogError
 from ..files import open_file, read
 from ..learning.actions import Actions
@@ -75,7 +76,7 @@ def from_records(path: str | Path) -> Log:
     try:
         content = read(path)
     except OSError as error:
-        raise LogError(f"{path}: cannot be read: {error.strerror}") from error
+        raise LogError(f"{named(path)}: cannot be read: {error.strerror}") from error
     records = _native.ShimRecords()
     _read(content, records, path)
     count, size = records.interactions, records.percept_bytes

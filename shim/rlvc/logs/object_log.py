@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..checks import shown
 from ..errors import LogError
 from .array_log import from_arrays, from_episodes
 from .content import as_file, text_of, why_no_arrays
@@ -66,7 +67,7 @@ def from_objects(
         rows = [dict(zip(header, row, strict=True)) for row in rows]
     bad = next((i for i, row in enumerate(rows) if not isinstance(row, Mapping)), None)
     if bad is not None:
-        raise LogError(f"{where}: index {bad}: {rows[bad]!r:.80} is no object of columns")
+        raise LogError(f"{where}: index {bad}: {shown(rows[bad])} is no object of columns")
     if _is_episode(rows[0]):
         return from_episodes(rows, where, **arguments)
     rows = [_in_one(row) for row in rows]

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..checks import named
 from ..errors import ConfigError, LogError
 from ..files import open_file
 from .array_log import from_episodes, from_hdf5
@@ -166,7 +167,7 @@ def _kind(path: str | Path) -> str:
         with open_file(path) as file:
             start = file.read(512)
     except OSError as error:
-        raise LogError(f"{path}: cannot be read: {error.strerror}") from error
+        raise LogError(f"{named(path)}: cannot be read: {error.strerror}") from error
     packed = is_packed(start)
     if packed:
         start = content_of(path)[:512]

@@ -8,7 +8,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
-from ..checks import listed
+from ..checks import listed, shown
 from ..errors import ConfigError, LogError
 
 NAMES = {
@@ -279,10 +279,10 @@ def _checked(
     """The roles by the caller: for each a list of columns that are there."""
     chosen: dict[str, list[str]] = {}
     if not isinstance(given, Mapping | None):
-        raise ConfigError(f"roles: {given!r:.80}: give a dict such as {{'action': 'steering'}}")
+        raise ConfigError(f"roles: {shown(given)}: give a dict such as {{'action': 'steering'}}")
     for role, value in (given or {}).items():
         if role not in _GIVEN:
-            raise ConfigError(f"roles: {role!r:.80} is not one of {', '.join(_GIVEN)}")
+            raise ConfigError(f"roles: {shown(role)} is not one of {', '.join(_GIVEN)}")
         value = [value] if isinstance(value, str) else listed(f"roles: {role}", value, "names")
         chosen[role] = [str(name) for name in value]
         for name in chosen[role]:

@@ -14,6 +14,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from ..checks import shown
 from ..errors import RunError
 from ..words import shortest
 from .drawing import GREY, PAPER, Source, axes_of, run_of, save
@@ -79,7 +80,7 @@ def _chosen(run: Any, names: dict[str, int], components: Sequence[str] | None) -
         return [name for name in run.importances() if name in names][:2]
     wanted = [components] if isinstance(components, str) else list(components)
     if len(wanted) != 2 or not set(wanted) <= set(names) or wanted[0] == wanted[1]:
-        raise RunError(f"components: {wanted!r:.80}: give two of {', '.join(names)}")
+        raise RunError(f"components: {shown(wanted)}: give two of {', '.join(names)}")
     return wanted
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
-from ..checks import known
+from ..checks import known, one_of, shown
 from ..errors import (
     ConfigError,
 )
@@ -93,10 +93,7 @@ class VisionConfig:
             ("form", FORMS),
             ("places", PLACES),
         ):
-            if getattr(self, name) not in values:
-                raise ConfigError(
-                    f"{name}: {getattr(self, name)!r} is not one of {', '.join(values)}"
-                )
+            one_of(name, getattr(self, name), values)
         native = _native.VisionConfig()
         library.rlvc_vision_config_default(DESCRIPTORS.index(self.descriptor), ctypes.byref(native))
         native.form = FORMS.index(self.form)
@@ -118,11 +115,11 @@ class VisionConfig:
             if name == "sigma" and value is None:
                 continue
             if whole and (not isinstance(value, int) or not 0 <= value < whole):
-                raise ConfigError(f"{name}: {value!r} is not an int in range")
+                raise ConfigError(f"{name}: {shown(value)} is not an int in range")
             try:
                 setattr(native, name, value)
             except TypeError:
-                raise ConfigError(f"{name}: {value!r} is not a number") from None
+                raise ConfigError(f"{name}: {shown(value)} is not a number") from None
         return native
 
     @classmethod

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
+from ..checks import one_of
 from ..errors import (
     BlockError,
     ConfigError,
@@ -59,8 +60,7 @@ _SIDE_MAX = 32767
 
 def native_picture(picture: Any, order: Order) -> _native.Picture:
     """Make the C struct of a picture, which keeps its pixels alive."""
-    if order not in _FORMATS:
-        raise PictureError(f"order: {order!r} is not one of rgb, bgr")
+    one_of("order", order, _FORMATS, PictureError)
     if not isinstance(picture, np.ndarray):
         raise PictureError(f"a picture must be an array, not {type(picture).__name__}")
     if picture.dtype != np.uint8:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _native, files
-from ..checks import real, whole
+from ..checks import one_of, real, whole
 from ..errors import (
     Error,
     MetricError,
@@ -103,8 +103,7 @@ class Metric(Owned):
         chosen = config_of(config, changes)
         if kind is None:
             kind = "covariance" if "invariants" in chosen.descriptor else "plain"
-        if kind not in METRICS:
-            raise RangeError(f"kind: {kind!r} is not one of {', '.join(METRICS)}")
+        one_of("kind", kind, METRICS, RangeError)
         native = chosen.native()
         fitter = Owned("rlvc_fitter_create", "rlvc_fitter_destroy", ctypes.byref(native))
         seen = list(pictures)
@@ -116,8 +115,7 @@ class Metric(Owned):
             number = whole("objects", number, 0, 2**32 - 1, RangeError)
             call("rlvc_fitter_add", fitter._handle, ctypes.byref(one), number)
         for before, after, how in pairs:
-            if how not in _PAIRS:
-                raise RangeError(f"pairs: {how!r} is not one of {', '.join(_PAIRS)}")
+            one_of("pairs", how, _PAIRS, RangeError)
             two = [native_picture(picture, order) for picture in (before, after)]
             references = (ctypes.byref(native) for native in two)
             call("rlvc_fitter_pair", fitter._handle, *references, _PAIRS.index(how))
