@@ -10,7 +10,7 @@ members. A report of :func:`make` has the kind ``"rlvc learn"`` and the members 
 neither ``depth`` nor ``last_split_step``, and its tree has no values.
 The Binary Gridworld adds ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. The Tiled
 Gridworld with an :class:`rlvc.vision.Eye` adds ``maze``, ``cells``, ``cell``, ``objects`` and
-``tests``.
+``tests``: of a bag, ``object`` and ``angle`` are those of the picture that has most of it.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ import numpy as np
 from . import files
 from .agent.agent import Agent
 from .checks import named
+from .domains.bags import Bags
 from .errors import RunError
 
 VERSION = 1
@@ -85,16 +86,14 @@ def _seen(run: Any, env: Any) -> dict[str, Any]:
                 "classes": sorted({answer.class_id for answer in answers}),
                 "action": ACTIONS[actions.pop()] if len(actions) == 1 else None,
             })  # fmt: skip
-    tests = [
-        {
-            "name": split.name,
-            "class": split.class_id,
-            "step": split.step,
-            "radius": float(split.feature["radius"]),
-            **_places_of(split.feature, places),
-        }
-        for split in run.agent.splits
-    ]
+    tests = []
+    for split in run.agent.splits:
+        test = {"name": split.name, "class": split.class_id, "step": split.step}
+        if isinstance(run.agent.domain, Bags):
+            test |= _bag_of(split.feature, run.agent.domain, sights, objects.angles)
+        else:
+            test |= _places_of(split.feature, places)
+        tests.append(test)
     listed = [
         {"name": name, "angle": objects.angles[0], "points": views[0].points.tolist()}
         for name, views in zip(objects.names, sights, strict=True)
@@ -117,7 +116,42 @@ def _places_of(feature: Any, places: dict[bytes, dict[str, Any]]) -> dict[str, A
     if "scale" in feature.dtype.names and feature["scale"] > 0:
         found = places.get(feature["second"].tobytes())
         second = found and {"x": found["x"], "y": found["y"]}
-    return {**places.get(feature["vector"].tobytes(), nowhere), "second": second}
+    return {
+        "radius": float(feature["radius"]),
+        **places.get(feature["vector"].tobytes(), nowhere),
+        "second": second,
+        "bag": None,
+    }
+
+
+def _bag_of(feature: Any, domain: Bags, sights: Any, angles: Any) -> dict[str, Any]:
+    """The picture that has most of a bag, and which points of it are like vectors of the bag."""
+    wanted = feature["vectors"][: feature["count"]].astype(float)
+    radius = domain.parameters[2]
+    best: tuple[int, int, list[Any]] = 0, angles[0], []
+    most = -1.0
+    for number, views in enumerate(sights):
+        for angle, sight in zip(angles, views, strict=True):
+            vectors = sight.vectors.astype(float)
+            if len(vectors) == 0:
+                continue
+            squares = ((wanted[:, None] - vectors) ** 2).sum(2)
+            worth = np.maximum(radius**2 - squares.min(1), 0.0)
+            if worth.sum() > most:
+                points = sight.points[squares.argmin(1)[worth > 0]].tolist()
+                most, best = worth.sum(), (number, angle, points)
+    number, angle, points = best
+    return {
+        "radius": None,
+        "object": number,
+        "angle": angle,
+        **dict.fromkeys(("x", "y", "second")),
+        "bag": {
+            "count": int(feature["count"]),
+            "needed": float(feature["needed"]) / radius**2,
+            "points": [{"x": x, "y": y} for x, y, _ in points],
+        },
+    }
 
 
 def _tree_members(learner: Any) -> dict[str, Any]:

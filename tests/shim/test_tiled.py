@@ -195,6 +195,31 @@ def test_a_pair_is_two_circles_and_a_line(learnt):
 
 
 @sees
+def test_a_bag_is_shown_where_most_of_it_is(learnt):
+    from rlvc import vision
+
+    env = learnt[0]
+    metric = vision.Metric.fit(env.objects.pictures[:, 0], sigma=2.5, points=60, form="int8")
+    eye = vision.Eye(vision.Extractor(metric=metric), bags=8)
+    run = rlvc.learn(env, 1500, encoder=eye, every=500, seed=1, discount=0.9)
+    made = report.make(run, env)
+    assert len(made["tests"]) == run.agent.classes - 1 > 3
+    circles = 0
+    for test, split in zip(made["tests"], run.agent.splits, strict=True):
+        sight = eye.look(env.objects.view(test["object"], test["angle"]))
+        assert run.agent.domain.exhibits(sight.vectors, split.feature)
+        found = run.agent.domain.nearest(sight.vectors, split.feature)
+        near = [point for point, distance in found if distance < run.agent.domain.parameters[2]]
+        x, y = sight.points[near, :2].T.tolist()
+        assert test["bag"]["points"] == [{"x": x, "y": y} for x, y in zip(x, y, strict=True)]
+        assert 0 < test["bag"]["needed"] <= len(near) <= test["bag"]["count"] <= 8
+        circles += len(near)
+    figure = plot.features(made)
+    assert shown(figure)[1] == 2 * circles
+    assert not any(axes.lines for axes in figure.axes)
+
+
+@sees
 def test_pictures_that_were_given(learnt):
     env, eye, _ = learnt
     other = rlvc.envs.TiledGridworld(rlvc.envs.SMALL, env.objects.pictures)

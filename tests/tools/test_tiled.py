@@ -134,6 +134,27 @@ def test_pairs(tmp_path, descriptor):
         assert test["name"].startswith("vector " if test["second"] is None else "pair ")
 
 
+def test_bags(tmp_path):
+    dot = tmp_path / "tree.dot"
+    made = report(tmp_path, "--maze", "small", "--interactions", 1500, "--noise", 2, "--bags",
+                  "--dot", dot)
+    assert made["optimal_seen"] >= 0.9
+    options, features = made["options"], made["features"]
+    assert options["bags"] is True and options["points"] == 120 and options["sigma"] == 2.5
+    assert features["candidates"] == 16
+    tests = made["runs"][0]["tests"]
+    assert tests
+    for test in tests:
+        bag = test["bag"]
+        assert test["name"].startswith("bag ") and test["radius"] is test["x"] is None
+        assert 0 < bag["needed"] <= len(bag["points"]) <= bag["count"] <= 16
+        points = made["objects"][test["object"]]["points"]
+        assert all([p["x"], p["y"]] in [point[:2] for point in points] for p in bag["points"])
+    assert "needed" in dot.read_text()
+    refused = tiled("--bags", "--pairs")
+    assert refused.returncode == 2 and "--pairs" in refused.stderr
+
+
 def test_same_seed_same_run(tmp_path):
     arguments = ("--maze", "small", "--noise", 3, "--copies", 2, "--interactions", 500)
     one, other = (report(tmp_path, *arguments) for _ in range(2))

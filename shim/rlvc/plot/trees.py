@@ -165,11 +165,14 @@ class _Drawing:
         else:
             picture = self.objects.view(test["object"], test["angle"])
             scale = show(self.axes, picture, x, y, side)
-            points = [test] if test.get("second") is None else [test, test["second"]]
+            bag = test.get("bag")
+            points = bag["points"] if bag else [p for p in (test, test.get("second")) if p]
+            radius, width = (0.06 * side, 1.0) if bag else (0.11 * side, 1.8)
             at = [(x + scale * (p["x"] + 0.5), y + scale * (p["y"] + 0.5)) for p in points]
-            connect(self.axes, at, 0.11 * side, 1.8)
+            if not bag:
+                connect(self.axes, at, radius, width)
             for place_of in at:
-                circle(self.axes, *place_of, 0.11 * side, 1.8)
+                circle(self.axes, *place_of, radius, width)
         middle = y + side / 2
         self.arrow((x + side, middle), (x + self.across, middle), "-")
         self.axes.text(x + side + 0.12, middle - 0.04, "yes", fontsize=8, va="bottom")
@@ -201,7 +204,8 @@ def features(
 ) -> Figure:
     """Draw the tree of an agent on pictures: each test is a picture with its point circled (figure 5).
 
-    A pair is two circles and a line.
+    A pair is two circles and a line. A bag is shown in the picture that has most of it; a small
+    circle is around each point that is like one of its vectors.
 
     Pictures without the feature go down, those with it go right. Beside each class are up to six of
     its objects. Needs ``tree``, ``tests``, ``cell`` and ``objects``.

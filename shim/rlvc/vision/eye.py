@@ -22,13 +22,13 @@ class Eye:
     cache : int
         Number of pictures whose percepts are cached, as environments often repeat pictures.
     **parameters
-        ``radius``, ``pairs``, ``candidates``, ``draws`` and ``margin``, as for
+        ``radius``, ``pairs``, ``bags``, ``candidates``, ``draws`` and ``margin``, as for
         :meth:`Extractor.domain`. With pairs the extractor's config must have ``places``.
 
     Attributes
     ----------
     extractor : Extractor
-    domain : Descriptors or Spatial
+    domain : Descriptors, Spatial or Bags
     """
 
     def __init__(

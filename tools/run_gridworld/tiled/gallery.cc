@@ -89,7 +89,8 @@ void feed(rlvc_fitter *fitter, const TiledOptions &options, const std::vector<Ob
 Gallery::Gallery(const TiledOptions &options, std::vector<Object> objects,
                  const std::function<void(const std::string &)> &progress)
     : objects_(std::move(objects)), config_(make_config(options)),
-      metric_(nullptr, rlvc_metric_destroy), extractor_(nullptr, rlvc_extractor_destroy) {
+      metric_(nullptr, rlvc_metric_destroy), extractor_(nullptr, rlvc_extractor_destroy),
+      bags_on_(options.bags), views_(options.poses.size()) {
     prepare(options);
     extract(options, progress);
 }
@@ -120,10 +121,21 @@ void Gallery::prepare(const TiledOptions &options) {
                  options.metric.empty() ? "" : "--metric: ");
     extractor_.reset(extractor);
     tau_ = rlvc_metric_tau(metric_.get());
-    const float radius = tau_ / rlvc_extractor_step(extractor);
-    check(rlvc_spatial_default(&spatial_, config_.points, rlvc_vision_dimensions(&config_),
-                               config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8
-                                                              : RLVC_DESCRIPTORS_FLOAT,
+    make_domain(options);
+}
+
+void Gallery::make_domain(const TiledOptions &options) {
+    const float radius = tau_ / rlvc_extractor_step(extractor_.get());
+    const uint32_t dimensions = rlvc_vision_dimensions(&config_);
+    const uint32_t form =
+        config_.form == RLVC_FORM_INT8 ? RLVC_DESCRIPTORS_INT8 : RLVC_DESCRIPTORS_FLOAT;
+    if (options.bags) {
+        check(rlvc_bags_default(&bags_, config_.points, dimensions, form, radius),
+              "rlvc_bags_default");
+        bags_.vectors.candidates = options.candidates;
+        return;
+    }
+    check(rlvc_spatial_default(&spatial_, config_.points, dimensions, form,
                                config_.places == RLVC_PLACES_DIRECTED, radius),
           "rlvc_spatial_default");
     spatial_.vectors.margin = options.margin;
@@ -192,7 +204,9 @@ void Gallery::extract(const TiledOptions &options,
 
 rlvc_domain Gallery::domain() {
     rlvc_domain domain;
-    if (spatial()) {
+    if (bags()) {
+        check(rlvc_bags_domain(&bags_, &domain), "rlvc_bags_domain");
+    } else if (spatial()) {
         check(rlvc_spatial_domain(&spatial_, &domain), "rlvc_spatial_domain");
     } else {
         check(rlvc_descriptors_domain(&spatial_.vectors, &domain), "rlvc_descriptors_domain");
@@ -213,7 +227,7 @@ const char *Gallery::first_vector(const void *feature) const {
 }
 
 const Place *Gallery::find(const void *feature) const {
-    return find_vector(first_vector(feature));
+    return bags() ? nullptr : find_vector(first_vector(feature));
 }
 
 const Place *Gallery::find_second(const void *feature) const {
@@ -222,4 +236,43 @@ const Place *Gallery::find_second(const void *feature) const {
     }
     return find_vector(first_vector(feature) +
                        RLVC_DESCRIPTORS_VECTOR_BYTES(descriptors().dimensions, descriptors().form));
+}
+
+// How much of a bag a picture has, in vectors that are found exactly; adds the points that count.
+double Gallery::score(const Sight &sight, const void *feature,
+                      std::vector<rlvc_point> &points) const {
+    const double limit = double{bags_.vectors.radius} * double{bags_.vectors.radius};
+    double sum = 0.0;
+    for (uint32_t i = 0; i < rlvc_bags_count(feature); i++) {
+        uint32_t point = 0;
+        float squared = 0.0f;
+        if (rlvc_bags_nearest(&bags_, sight.percept.data(), feature, i, &point, &squared) ==
+                RLVC_OK &&
+            double{squared} < limit) {
+            sum += 1.0 - double{squared} / limit;
+            points.push_back(sight.points[point]);
+        }
+    }
+    return sum;
+}
+
+BagPlace Gallery::find_bag(const void *feature) const {
+    const double limit = double{bags_.vectors.radius} * double{bags_.vectors.radius};
+    BagPlace best;
+    double most = -1.0;
+    best.count = rlvc_bags_count(feature);
+    best.needed = double{rlvc_bags_needed(feature)} / limit;
+    for (uint32_t i = 0; i < seen_.size(); i++) {
+        for (std::size_t view = 0; view < views_; view++) {
+            std::vector<rlvc_point> points;
+            const double found = score(seen_[i][view], feature, points);
+            if (found > most) {
+                most = found;
+                best.object = i;
+                best.angle = seen_[i][view].angle;
+                best.points = std::move(points);
+            }
+        }
+    }
+    return best;
 }

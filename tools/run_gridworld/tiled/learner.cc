@@ -170,8 +170,12 @@ void Run::list_tests() {
         Test test;
         test.split_class = split.class_id;
         test.step = split.step;
-        test.radius = rlvc_descriptors_radius(feature.data());
         test.name = name;
+        if (gallery_.bags()) {
+            test.bag = gallery_.find_bag(feature.data());
+        } else {
+            test.radius = rlvc_descriptors_radius(feature.data());
+        }
         test.place = gallery_.find(feature.data());
         test.second = gallery_.find_second(feature.data());
         result_.tests.push_back(test);

@@ -7,6 +7,8 @@
 #include "../maze/policy.h"
 #include "gallery.h"
 
+#include <optional>
+
 // A test of the tree, as in figure 5.
 struct Test {
     uint32_t split_class = 0, step = 0;
@@ -14,6 +16,7 @@ struct Test {
     std::string name;
     const Place *place = nullptr;  // in the gallery;
     const Place *second = nullptr; // of a pair, of its second point
+    std::optional<BagPlace> bag;   // of a bag, in place of these and the radius
 };
 
 struct TiledRun {

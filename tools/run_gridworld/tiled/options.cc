@@ -11,8 +11,11 @@
 
 namespace {
 
-// A wide window of SIFT separates objects better, at little loss between poses.
+// A wide window of SIFT separates objects better, at little loss between poses. A bag is many
+// narrow ones, of which some are covered or foreign.
 constexpr float sift_sigma = 6.0f, other_sigma = 2.5f;
+constexpr uint32_t vector_points = 30, bag_points = 120;
+constexpr uint32_t vector_candidates = 64, bag_candidates = 16;
 
 const std::vector<Named> descriptors{{"sift-upright", RLVC_DESCRIPTOR_SIFT_UPRIGHT},
                                      {"sift", RLVC_DESCRIPTOR_SIFT},
@@ -114,9 +117,9 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
     add_named(app, "--descriptor", descriptors, options.descriptor,
               "sift-upright (default), sift, orb, invariants or sqrt-invariants");
     add_whole(app, "--points", options.points, 1, RLVC_POINTS_MAX,
-              "maximum number of points in a picture (30)");
+              "maximum number of points in a picture (30; bags: 120)");
     add_number(app, "--sigma", options.sigma, 0.5f, 8,
-               "scale of the vectors in pixels (SIFT: 6; others: 2.5)");
+               "scale of the vectors in pixels (SIFT: 6; others, and bags: 2.5)");
     add_whole(
         app, "--axes", options.axes, 0, 128,
         "discriminant axes that SIFT is reduced to if views or light differ; 0: plain SIFT (16)");
@@ -125,17 +128,36 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
     add_number(app, "--margin", options.margin, 1, 16,
                "radius of a feature, [tau / X, tau * X]; 1: always tau (1.8)");
     add_whole(app, "--candidates", options.candidates, 1, 65535,
-              "features tried for each class (64)");
+              "features tried for each class (64; bags: 16)");
     app.add_flag_callback(
            "--raw-light", [&options] { options.normalise = false; },
            "do not normalise the light of pictures")
         ->disable_flag_override();
+    CLI::Option *pairs = app.add_flag_callback(
+                                "--pairs", [&options] { options.pairs = true; },
+                                "also try as many features of two points")
+                             ->disable_flag_override();
     app.add_flag_callback(
-           "--pairs", [&options] { options.pairs = true; },
-           "also try as many features of two points")
-        ->disable_flag_override();
+           "--bags", [&options] { options.bags = true; },
+           "features are bags of vectors of which a part is enough")
+        ->disable_flag_override()
+        ->excludes(pairs);
     add_file(app, "--metric", options.metric, "use this metric instead of fitting one");
     add_file(app, "--save-metric", options.save_metric, "write the metric");
+}
+
+void settle_seeing(TiledOptions &options) {
+    const bool sift = options.descriptor == RLVC_DESCRIPTOR_SIFT ||
+                      options.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
+    if (options.sigma == 0.0f) {
+        options.sigma = sift && !options.bags ? sift_sigma : other_sigma;
+    }
+    if (options.points == 0) {
+        options.points = options.bags ? bag_points : vector_points;
+    }
+    if (options.candidates == 0) {
+        options.candidates = options.bags ? bag_candidates : vector_candidates;
+    }
 }
 
 void settle(TiledOptions &options) {
@@ -145,11 +167,7 @@ void settle(TiledOptions &options) {
     if (options.alpha == 0.0f) {
         options.alpha = default_alpha;
     }
-    if (options.sigma == 0.0f) {
-        const bool sift = options.descriptor == RLVC_DESCRIPTOR_SIFT ||
-                          options.descriptor == RLVC_DESCRIPTOR_SIFT_UPRIGHT;
-        options.sigma = sift ? sift_sigma : other_sigma;
-    }
+    settle_seeing(options);
     if (options.test_backgrounds.empty()) {
         options.test_backgrounds = options.backgrounds;
     }

@@ -27,14 +27,15 @@ struct TiledOptions : LearningOptions {
 
     // Seeing.
     uint8_t descriptor = 0; // RLVC_DESCRIPTOR_*
-    uint32_t points = 30;
-    uint32_t axes = 16;   // of SIFT that a metric keeps; 0: SIFT as it is
-    float sigma = 0.0f;   // 0: the descriptor's default
-    float share = 0.035f; // of the other objects' pictures that exhibit a feature at tau
+    uint32_t points = 0;    // 0: the default of such features
+    uint32_t axes = 16;     // of SIFT that a metric keeps; 0: SIFT as it is
+    float sigma = 0.0f;     // 0: the default of descriptor and features
+    float share = 0.035f;   // of the other objects' pictures that exhibit a feature at tau
     float margin = 1.8f;
-    uint32_t candidates = 64;
+    uint32_t candidates = 0; // 0: the default of such features
     bool normalise = true;
     bool pairs = false;              // features of two points, too
+    bool bags = false;               // features are bags of vectors; not together with pairs
     std::string metric, save_metric; // files
 
     std::string snapshot; // a file; empty: none

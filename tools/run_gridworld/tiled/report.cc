@@ -29,6 +29,12 @@ std::string point_text(const rlvc_point &point) {
 }
 
 std::string place_text(const Gallery &gallery, const Test &test) {
+    if (test.bag) {
+        return gallery.objects()[test.bag->object].name + " at " + std::to_string(test.bag->angle) +
+               " deg, " + std::to_string(test.bag->points.size()) + " of " +
+               std::to_string(test.bag->count) + " vectors, " + fixed(test.bag->needed, 1) +
+               " needed";
+    }
     if (!test.place) {
         return "an unknown picture";
     }
@@ -59,7 +65,8 @@ Json describe_options(const TiledOptions &options) {
               {"margin", shortest(options.margin)},
               {"candidates", options.candidates},
               {"normalise", options.normalise},
-              {"pairs", options.pairs}};
+              {"pairs", options.pairs},
+              {"bags", options.bags}};
     add_learning(json, options);
     return json;
 }
@@ -95,19 +102,45 @@ Json describe_cells(const gridworld_maze &maze, const TiledRun &run) {
     return cells;
 }
 
+Json describe_bag(const BagPlace &bag) {
+    Json points = Json::array();
+    for (const rlvc_point &point : bag.points) {
+        points.push_back({{"x", shortest(point.x)}, {"y", shortest(point.y)}});
+    }
+    return {{"count", bag.count}, {"needed", bag.needed}, {"points", std::move(points)}};
+}
+
+// A bag is seen in several pictures: object and angle are those of the one that has most of it.
+Json describe_test(const Test &test) {
+    Json one{{"name", test.name}, {"class", test.split_class},
+             {"step", test.step}, {"radius", nullptr},
+             {"object", nullptr}, {"angle", nullptr},
+             {"x", nullptr},      {"y", nullptr},
+             {"second", nullptr}, {"bag", nullptr}};
+    if (test.bag) {
+        one["object"] = test.bag->object;
+        one["angle"] = test.bag->angle;
+        one["bag"] = describe_bag(*test.bag);
+        return one;
+    }
+    one["radius"] = shortest(test.radius);
+    if (test.place) {
+        one["object"] = test.place->object;
+        one["angle"] = test.place->angle;
+        one["x"] = shortest(test.place->point.x);
+        one["y"] = shortest(test.place->point.y);
+    }
+    if (test.second) {
+        one["second"] = {{"x", shortest(test.second->point.x)},
+                         {"y", shortest(test.second->point.y)}};
+    }
+    return one;
+}
+
 Json describe_run(const gridworld_maze &maze, const TiledRun &run) {
     Json tests = Json::array();
     for (const Test &test : run.tests) {
-        Json one{{"name", test.name}, {"class", test.split_class}, {"step", test.step}};
-        one["radius"] = shortest(test.radius);
-        one["object"] = test.place ? Json(test.place->object) : Json(nullptr);
-        one["angle"] = test.place ? Json(test.place->angle) : Json(nullptr);
-        one["x"] = test.place ? Json(shortest(test.place->point.x)) : Json(nullptr);
-        one["y"] = test.place ? Json(shortest(test.place->point.y)) : Json(nullptr);
-        one["second"] = test.second ? Json{{"x", shortest(test.second->point.x)},
-                                           {"y", shortest(test.second->point.y)}}
-                                    : Json(nullptr);
-        tests.push_back(std::move(one));
+        tests.push_back(describe_test(test));
     }
     return {{"seed", run.seed},
             {"optimal_seen", run.optimal_seen},
