@@ -37,7 +37,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("package", nargs="*", help=f"of {', '.join(PACKAGES)}; default: all")
     parser.add_argument("--pack", type=pathlib.Path, metavar="FOLDER", help="where the archives go")
+    parser.add_argument("--unoptimised", action="store_true", help="compile sooner what is not for a release")
     arguments = parser.parse_args()
+    packing.optimised = not arguments.unoptimised
     for name in arguments.package:
         if name not in PACKAGES:
             parser.error(f"no such package: {name}")

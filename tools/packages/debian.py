@@ -27,7 +27,8 @@ def pack(folder):
     packing.pack_tar(source, folder / "build" / f"rlvc_{packing.VERSION}.orig.tar.gz")
     shutil.copytree(RECIPE, source / "debian")
     (source / "debian/changelog").write_text(CHANGELOG.format(version=packing.VERSION), encoding="utf-8")
-    packing.run("dpkg-buildpackage", "--no-sign", cwd=source)
+    options = {} if packing.optimised else {"DEB_BUILD_OPTIONS": "noopt noautodbgsym"}
+    packing.run("dpkg-buildpackage", "--no-sign", cwd=source, env={**os.environ, **options})
     made = folder / f"rlvc-debian-{packing.VERSION}"
     made.mkdir()
     for path in (folder / "build").iterdir():

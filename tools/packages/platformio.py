@@ -62,7 +62,7 @@ def check(archive, folder):
     if len(sources) != sum(path.suffix == ".c" for path in packing.core_files()):
         raise packing.Failed(f"{len(sources)} sources are packed")
     includes = f"-I{library / build['includeDir']}"
-    packing.run("cc", "-std=gnu11", "-Os", *build["flags"], includes, packing.ROW, *sources, "-o", folder / "row")
+    packing.run("cc", "-std=gnu11", "-O0", *build["flags"], includes, packing.ROW, *sources, "-o", folder / "row")
     packing.expect_row(packing.run(folder / "row"), folder)
     compile_sketch(includes, build["flags"], folder)
     return ("packed by PlatformIO; built for this machine by its manifest, the tutorial's sketch for an Arduino board "

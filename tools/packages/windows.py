@@ -12,9 +12,10 @@ WINE = "/usr/lib/wine/wine64"  # where Debian keeps it
 
 def pack(folder):
     compiler = packing.tool("x86_64-w64-mingw32-gcc")
+    kind = "MinSizeRel" if packing.optimised else "Debug"
     made, build = folder / f"rlvc-windows-x86_64-{packing.VERSION}", folder / "build"
     packing.run("cmake", "-G", "Ninja", "-S", packing.ROOT, "-B", build, "-DCMAKE_SYSTEM_NAME=Windows",
-                f"-DCMAKE_C_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=MinSizeRel", "-DRLVC_VISION=OFF",
+                f"-DCMAKE_C_COMPILER={compiler}", f"-DCMAKE_BUILD_TYPE={kind}", "-DRLVC_VISION=OFF",
                 "-DRLVC_TOOLS=OFF", "-DRLVC_EXAMPLES=OFF", f"-DCMAKE_INSTALL_PREFIX={made}")
     packing.run("cmake", "--build", build, "--target", "install")
     shutil.copy(packing.ROOT / "LICENSE", made)
