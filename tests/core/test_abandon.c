@@ -69,6 +69,29 @@ static void test_at_every_point(void **state) {
     }
 }
 
+/* Given up while the dependence of samples is weighed: what the next step finds is weighed anew. */
+static void test_while_dependence_is_weighed(void **state) {
+    static const rlvc_dependence nothing;
+    uint32_t given_up = 0;
+    (void)state;
+    for (uint32_t slices = 1; slices < 3000u; slices += 7u) {
+        rlvc_progress progress = {0};
+        player_enter_world(&p, BATCH);
+        p.config.successors = p.config.dependence = 1;
+        p.config.min_samples = 4;
+        player_init(&p);
+        player_play(&p, 250);
+        for (uint32_t i = 0; i < slices && !progress.done; i++)
+            assert_int_equal(rlvc_learn(p.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+        given_up += p.agent->learner.dependence.wanted;
+        assert_int_equal(rlvc_learn_abandon(p.agent), RLVC_OK);
+        if (!progress.done)
+            assert_memory_equal(&p.agent->learner.dependence, &nothing, sizeof nothing);
+        check_labels(&p);
+    }
+    assert_true(given_up > 3u);
+}
+
 /* Fails whenever it sees one percept, as a detector does that cannot bear it. */
 static int (*exhibits)(void *ctx, const void *percept, const void *feature, uint8_t *present);
 static uint32_t poison;
@@ -143,6 +166,7 @@ static void test_arguments(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_at_every_point),
+        cmocka_unit_test(test_while_dependence_is_weighed),
         cmocka_unit_test(test_unbearable_percept),
         cmocka_unit_test(test_arguments),
     };

@@ -521,6 +521,8 @@ rlvc_status rlvc_learn_abandon(rlvc_agent *agent) {
     memset(replay->label, 0xff, replay->slots * sizeof *replay->label); /* RLVC_NO_CLASS */
     memset(agent->pending, 0, agent->tree.classes * sizeof *agent->pending);
     replay->frozen = 0;
+    if (RLVC_HAS_DEPENDENCE) /* what was weighed may never be found again */
+        rlvc_dependence_begin(&agent->learner.dependence);
     agent->learner.phase = RLVC_PHASE_IDLE;
     agent->learner.failed = 0;
     return RLVC_OK;
