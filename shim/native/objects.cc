@@ -2,6 +2,7 @@
 #include "objects.h"
 
 #include "objects/objects.h"
+#include "objects/picture_file.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -12,14 +13,32 @@ struct rlvc_shim_objects {
     std::vector<Object> list;
 };
 
-int rlvc_shim_objects_find(const char *folder, const int32_t *angles, uint32_t count,
-                           uint32_t wanted, uint32_t side, uint32_t scale_depth,
-                           rlvc_shim_objects **objects, char *text, size_t room) try {
+namespace {
+
+Reading reading_of(uint32_t side, uint32_t scale_depth) {
     Reading reading;
     reading.width = reading.height = static_cast<int>(side);
     reading.scale_depth = scale_depth != 0;
-    *objects = new rlvc_shim_objects{
-        find_objects(folder, std::vector<int>(angles, angles + count), wanted, reading)};
+    return reading;
+}
+
+} // namespace
+
+int rlvc_shim_objects_find(const char *folder, const int32_t *angles, uint32_t count,
+                           uint32_t wanted, uint32_t side, uint32_t scale_depth,
+                           rlvc_shim_objects **objects, char *text, size_t room) try {
+    *objects = new rlvc_shim_objects{find_objects(folder, std::vector<int>(angles, angles + count),
+                                                  wanted, reading_of(side, scale_depth))};
+    return 0;
+} catch (const std::exception &error) {
+    std::snprintf(text, room, "%s", error.what());
+    return -1;
+}
+
+int rlvc_shim_objects_read(const char *path, uint32_t side, uint32_t scale_depth,
+                           rlvc_shim_objects **objects, char *text, size_t room) try {
+    const cv::Mat picture = read_picture(path, reading_of(side, scale_depth));
+    *objects = new rlvc_shim_objects{{{path, {{0, picture}}}}};
     return 0;
 } catch (const std::exception &error) {
     std::snprintf(text, room, "%s", error.what());

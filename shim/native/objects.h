@@ -27,6 +27,12 @@ RLVC_API int rlvc_shim_objects_find(const char *folder, const int32_t *angles, u
                                     uint32_t wanted, uint32_t side, uint32_t scale_depth,
                                     rlvc_shim_objects **objects, char *text, size_t room);
 
+/* Reads one picture, as the only object, seen from angle 0.
+ * @param path    UTF-8
+ * @param side, scale_depth, objects, text, room, and what is returned: as above */
+RLVC_API int rlvc_shim_objects_read(const char *path, uint32_t side, uint32_t scale_depth,
+                                    rlvc_shim_objects **objects, char *text, size_t room);
+
 /* The number of objects, and the height and width of a picture. */
 RLVC_API void rlvc_shim_objects_size(const rlvc_shim_objects *objects, uint32_t *count,
                                      uint32_t *height, uint32_t *width);

@@ -72,6 +72,50 @@ def given(pictures: npt.NDArray[np.uint8]) -> Objects:
     return Objects(names, list(range(pictures.shape[1])), pictures, None)
 
 
+def read(
+    path: str | Path, resize: int | None = None, scale_depth: bool = False
+) -> npt.NDArray[np.uint8]:
+    """Read a picture from a file, upright as its EXIF orientation says.
+
+    Parameters
+    ----------
+    path : str or Path
+        PNG, JPEG, WebP, BMP, TIFF, PPM or PGM.
+    resize : int or None
+        Scale the picture to this many pixels a side, [8, 4096]. None: leave it as it is.
+    scale_depth : bool
+        Whether to scale 16 bits a channel to 8; otherwise they are refused.
+
+    Returns
+    -------
+    ndarray of uint8, [height, width, 3]
+        Red first; a grey picture has three equal channels.
+
+    Raises
+    ------
+    ImportError
+        The vision module is missing. The message says what to install.
+    PictureError
+        The file is no picture that can be used, or was cut short. The message names it.
+    """
+    library = _native.load_optional("rlvc-objects", _native.OBJECTS)
+    handle, text = ctypes.c_void_p(), ctypes.create_string_buffer(512)
+    side = 0 if resize is None else whole("resize", resize, 8, 4096)
+    status = library.rlvc_shim_objects_read(
+        os.fsencode(path), side, scale_depth, ctypes.byref(handle), text, len(text)
+    )
+    if status != 0:
+        raise PictureError(text.value.decode(errors="replace"))
+    try:
+        sizes = [ctypes.c_uint32() for _ in range(3)]
+        library.rlvc_shim_objects_size(handle, *(ctypes.byref(size) for size in sizes))
+        picture = np.empty((sizes[1].value, sizes[2].value, 3), np.uint8)
+        library.rlvc_shim_objects_copy(handle, 0, 0, picture.ctypes.data)
+    finally:
+        library.rlvc_shim_objects_free(handle)
+    return picture
+
+
 def find(
     folder: str | Path | None = None,
     angles: Sequence[int] = (0,),

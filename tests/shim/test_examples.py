@@ -14,7 +14,7 @@ EXAMPLES = sorted((ROOT / "examples").glob("[0-9][0-9]_*.py"))
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example(example, tmp_path):
-    if ("tiled" in example.stem or "grasp" in example.stem) and without_vision():
+    if any(word in example.stem for word in ("tiled", "grasp", "frames")) and without_vision():
         pytest.skip(without_vision())
     if "fleet" in example.stem:
         pytest.importorskip("ray")
@@ -39,6 +39,9 @@ def test_example(example, tmp_path):
         assert float(done.stdout.split()[2]) >= 95
     if "grasp" in example.stem:
         assert done.stdout.splitlines()[-1].endswith("held-out grasps: 1.000")
+    if "frames" in example.stem:
+        right, tried = re.search(r"(\d+) of (\d+) new frames", done.stdout).groups()
+        assert int(right) >= 0.95 * int(tried)
     if "lake" in example.stem:
         assert float(done.stdout.split("mean return:")[1]) >= 0.7
     if "fleet" in example.stem:

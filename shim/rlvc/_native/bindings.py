@@ -848,6 +848,9 @@ OBJECTS: Functions = {
         c.c_void_p, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p,
         c.c_void_p, c.c_size_t,
     ]),
+    "rlvc_shim_objects_read": (c.c_int, [
+        c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_size_t,
+    ]),
     "rlvc_shim_objects_size": (None, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_shim_objects_name": (c.c_char_p, [c.c_void_p, c.c_uint32]),
     "rlvc_shim_objects_copy": (None, [c.c_void_p, c.c_uint32, c.c_int32, c.c_void_p]),

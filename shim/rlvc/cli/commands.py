@@ -89,8 +89,12 @@ def _sort_out(arguments: argparse.Namespace) -> None:
         arguments.log = [*named, *(arguments.log or ())]
     elif named:
         arguments.env = named[0]
-    if (arguments.env is None) == (arguments.log is None):
-        raise Error("learn: give either ENV or files of logs")
+    if arguments.frames is not None and arguments.env is None:
+        return
+    if arguments.save_metric is not None or arguments.frame_column is not None:
+        raise Error("learn: --save-metric and --frame-column go with --frames")
+    if (arguments.env is None) == (arguments.log is None) or arguments.frames is not None:
+        raise Error("learn: give either ENV or files of logs, or --frames")
 
 
 def _is_log(name: str) -> bool:
@@ -106,7 +110,9 @@ def learn_command(arguments: argparse.Namespace) -> int:
         return _learn_often(arguments)
     env = None
     try:
-        if arguments.env is not None:
+        if arguments.frames is not None:
+            run = _learnt_from_frames(arguments)
+        elif arguments.env is not None:
             env = _with_past(_environment(arguments.env, arguments.env_arg), arguments.history)
             run = _learnt(env, arguments, load(arguments.run) if arguments.run else None)
         else:
@@ -131,6 +137,27 @@ def learn_command(arguments: argparse.Namespace) -> int:
         cut = f" ({evaluation.cut} cut off)" if evaluation.cut else ""
         print(f"mean return of {arguments.episodes} episodes{cut}: {evaluation.mean:.4g}")
     return 0
+
+
+def _learnt_from_frames(arguments: argparse.Namespace) -> Run:
+    """Learn from what a camera saw."""
+    from ..vision import learn_from_frames
+
+    found = arguments.log or [None]
+    if len(found) > 1:
+        raise ConfigError("--frames: goes with one log")
+    run = learn_from_frames(
+        arguments.frames,
+        found[0],
+        column=arguments.frame_column,
+        scale_depth=arguments.scale_depth,
+        seed=arguments.seed,
+        **_chosen(arguments, "header", "roles", "actions", "bins", "steps"),
+    )
+    if arguments.save_metric:
+        eye: Any = run.encoder
+        eye.extractor.metric.save(arguments.save_metric)
+    return run
 
 
 def _learnt(env: Any, arguments: argparse.Namespace, run: Run | None = None) -> Run:

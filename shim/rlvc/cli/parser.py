@@ -115,6 +115,17 @@ def _add_log_options(add: Any) -> None:
     )
 
 
+def _add_frames(add: Any) -> None:
+    add(
+        "--frames",
+        metavar="SOURCE",
+        help="a folder of pictures or a video, seen by a camera; its log is in it or beside, or --log",
+    )
+    add("--frame-column", metavar="NAME", help="column of the log that names the frames")
+    add("--scale-depth", action="store_true", help="scale frames of 16 bits a channel to 8")
+    add("--save-metric", metavar="FILE", help="write the metric of the frames' vectors")
+
+
 def _add_env_options(add: Any) -> None:
     add("--env-arg", metavar="NAME=VALUE", action="append", default=[],
         help="argument of the environment, such as is_slippery=False")  # fmt: skip
@@ -167,6 +178,7 @@ def _add_learn(commands: Any) -> None:
     add("env", nargs="*", metavar="ENV",
         help="environment, such as FrozenLake-v1 or MODULE:ID; or files of logs")  # fmt: skip
     add("--log", metavar="FILE", nargs="+", help="logs of any kind, or name of a Minari data set")
+    _add_frames(add)
     add("--interactions", type=_whole, metavar="N", default=10_000,
         help="number of interactions with ENV (default: %(default)s)")  # fmt: skip
     add("--seed", type=_seed, metavar="N", default=1,

@@ -10,6 +10,18 @@ pixels. Source: ``vision/include/rlvc/vision.h``.
 from .config import DESCRIPTORS, VisionConfig
 from .extractor import Extractor, Sight
 from .eye import Eye
+from .frames import Frames, find_log, learn_from_frames
 from .metric import METRICS, Metric
 
-__all__ = ["DESCRIPTORS", "METRICS", "Extractor", "Eye", "Metric", "Sight", "VisionConfig"]
+__all__ = [
+    "DESCRIPTORS",
+    "METRICS",
+    "Extractor",
+    "Eye",
+    "Frames",
+    "Metric",
+    "Sight",
+    "VisionConfig",
+    "find_log",
+    "learn_from_frames",
+]

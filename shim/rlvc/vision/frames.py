@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: MIT
+"""Learning from what a camera saw: the frames of a folder or of a video, and a log beside them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import objects
+from .._native import TERMINATED
+from ..checks import named
+from ..errors import LogError, PictureError
+from ..logs.csv_log import table_of
+from ..logs.learn_from import learn_from
+from ..logs.table import Table, from_table
+from .extractor import Extractor
+from .eye import Eye
+from .library import Picture
+from .metric import Metric
+
+if TYPE_CHECKING:
+    from ..learning.run import Run
+
+_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".pgm", ".tif", ".tiff", ".webp")
+_NAMES = ("frame", "frames", "picture", "image", "img", "photo", "file", "filename", "frame_index")
+_FITTED = 64  # frames that a metric is fitted to
+
+
+class Frames:
+    """The frames of a folder or of a video.
+
+    Parameters
+    ----------
+    source : str or Path
+        A folder of pictures, in the order of their names (frame2 before frame10), or a video. A
+        video needs OpenCV's package for Python: ``pip install 'rlvc[vision]'``.
+    scale_depth : bool
+        Whether to scale pictures of 16 bits a channel to 8; otherwise they are refused.
+
+    Attributes
+    ----------
+    source : Path
+    names : list of str
+        The files of a folder. Empty for a video, whose frames have numbers only.
+
+    Raises
+    ------
+    PictureError
+        There is no frame.
+    """
+
+    def __init__(self, source: str | Path, scale_depth: bool = False) -> None:
+        self.source, self._scale_depth = Path(source), scale_depth
+        self.names: list[str] = []
+        if self.source.is_dir():
+            found = (path.name for path in self.source.iterdir() if _is_picture(path))
+            self.names = sorted(found, key=_in_order)
+            if not self.names:
+                raise PictureError(f"there is no picture in {named(source)}")
+        elif not self.source.is_file():
+            raise PictureError(f"{named(source)}: neither a folder of pictures nor a video")
+        self._numbers = {Path(name).stem: i for i, name in enumerate(self.names)}
+        self._numbers |= {name: i for i, name in enumerate(self.names)}
+
+    def number(self, word: Any) -> int | None:
+        """Return which frame of a folder a file name is, with its ending or without; None: none."""
+        return self._numbers.get(re.split(r"[/\\]", str(word))[-1])
+
+    def pictures(self, wanted: Collection[int] | None = None) -> Iterator[tuple[int, Picture]]:
+        """Read frames in their order.
+
+        Parameters
+        ----------
+        wanted : collection of int or None
+            Numbers of frames, from 0. None: all.
+
+        Yields
+        ------
+        tuple of int and ndarray of uint8, [height, width, 3]
+
+        Raises
+        ------
+        PictureError
+            A file is no picture, or was cut short. The message names it.
+        ImportError
+            A video, without OpenCV's package for Python.
+        """
+        if not self.names:
+            yield from self._of_video(wanted)
+            return
+        for i in range(len(self.names)) if wanted is None else sorted(set(wanted)):
+            path = self.source / self.names[i]
+            yield i, objects.read(path, scale_depth=self._scale_depth)
+
+    def _of_video(self, wanted: Collection[int] | None) -> Iterator[tuple[int, Picture]]:
+        try:
+            import cv2
+        except ImportError:
+            raise ImportError(
+                f"{self.source}: a video needs OpenCV's package: pip install 'rlvc[vision]'; or write "
+                "its frames into a folder: ffmpeg -i VIDEO FOLDER/%06d.png"
+            ) from None
+        video, chosen = cv2.VideoCapture(str(self.source)), wanted if wanted is None else set(wanted)
+        try:
+            if not video.isOpened():
+                raise PictureError(f"{self.source}: not a video that can be read")
+            i = 0
+            while chosen is None or i <= max(chosen, default=-1):
+                there, picture = video.read()
+                if not there:
+                    break
+                if chosen is None or i in chosen:
+                    yield i, np.ascontiguousarray(picture[:, :, ::-1])
+                i += 1
+        finally:
+            video.release()
+
+
+def _is_picture(path: Path) -> bool:
+    return path.suffix.lower() in _SUFFIXES and not path.name.startswith(".")
+
+
+def _in_order(name: str) -> list[tuple[int, str]]:
+    """A key that sorts numbers in a name by their values."""
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", name)]
+
+
+# ---------------------------------------------------------------------- the log beside
+
+
+def find_log(source: str | Path) -> Path:
+    """Find the log of frames.
+
+    Parameters
+    ----------
+    source : str or Path
+        A folder: its only file of CSV, or that beside it with its name. A video: the file of CSV
+        beside it with its name.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    LogError
+        There is none, or there are several.
+    """
+    source = Path(source)
+    beside = source.with_suffix(".csv") if not source.is_dir() else Path(f"{source.resolve()}.csv")
+    inside = sorted(source.glob("*.csv")) if source.is_dir() else []
+    if len(inside) > 1:
+        listed = ", ".join(path.name for path in inside[:3])
+        raise LogError(f"{source}: has several logs: {listed}: pass one as log")
+    found = [path for path in (*inside, beside) if path.is_file()]
+    if not found:
+        raise LogError(f"{named(source)}: there is no log: neither in it nor as {beside.name} beside")
+    return found[0]
+
+
+def _column(table: Table, column: str | None) -> str | None:
+    """The column that names the frames; None: there is none, and row i is of frame i."""
+    if column is not None:
+        if column not in table.columns:
+            raise LogError(f"{table.where}: {table.head}: there is no column {column}")
+        return column
+    found = [name for name in table.columns if name.strip().lower() in _NAMES]
+    if len(found) > 1:
+        raise LogError(
+            f"{table.where}: {table.head}: {' and '.join(found)} may name the frames: pass column"
+        )
+    return found[0] if found else None
+
+
+def _numbered(table: Table, column: str | None, frames: Frames) -> str:
+    """Put the numbers of the frames in place of their names; return the column."""
+    found = _column(table, column)
+    rows = len(next(iter(table.columns.values())))
+    if found is None:
+        if frames.names and len(frames.names) != rows:
+            raise LogError(
+                f"{table.where}: {table.head}: no column names the frames, of which there are "
+                f"{len(frames.names)} for {rows} rows: pass column"
+            )
+        table.columns["frame"] = np.arange(rows, dtype=float)
+        table.notes.append("frame: row i is of frame i")
+        return "frame"
+    numbers = np.full(rows, np.nan)
+    for i, word in enumerate(table.columns[found]):
+        if word is None or word == "" or word != word:  # NaN: the row has no frame
+            continue
+        number = frames.number(word)
+        if number is None and not isinstance(word, str) and float(word).is_integer() and word >= 0:
+            number = int(word)  # from 0
+        if number is None or (frames.names and number >= len(frames.names)):
+            raise table.wrong(i, found, f"{word} is no frame of {frames.source}")
+        numbers[i] = number
+    table.columns[found] = numbers
+    return found
+
+
+class _Seen:
+    """An encoder of numbers of frames, each of which was looked at once."""
+
+    def __init__(self, eye: Eye, percepts: dict[int, bytes]) -> None:
+        self.domain, self.names, self._percepts = eye.domain, eye.names, percepts
+
+    def encode(self, number: Any) -> bytes:
+        return self._percepts[int(number)]
+
+
+def _fitted_eye(frames: Frames, numbers: list[int]) -> Eye:
+    """An eye whose metric is fitted to some of the frames."""
+    chosen = numbers[:: -(-len(numbers) // _FITTED)]
+    pictures = [picture for _, picture in frames.pictures(chosen)]
+    return Eye(Extractor(metric=Metric.fit(pictures, form="int8", normalise=True)))
+
+
+def learn_from_frames(
+    source: str | Path,
+    log: str | Path | None = None,
+    *,
+    eye: Eye | None = None,
+    column: str | None = None,
+    header: Sequence[str] | None = None,
+    roles: Mapping[str, Any] | None = None,
+    bins: int | None = None,
+    scale_depth: bool = False,
+    **options: Any,
+) -> Run:
+    """Learn from the frames of a camera, with actions and rewards in a CSV beside.
+
+    Parameters
+    ----------
+    source : str or Path
+        A folder of pictures or a video, as for :class:`Frames`.
+    log : str, Path or None
+        A file of CSV with a row for each frame: the frame that was seen, the action that was taken
+        at it, the reward that came of it, and whether the episode ended with it; otherwise the next
+        frame is in the next row. Names of columns are those of :func:`rlvc.learn_from`. None:
+        :func:`find_log`.
+    eye : Eye or None
+        None: one whose metric is fitted to up to 64 of the frames.
+    column : str or None
+        The column of the frame: the name of a file of the folder, or a number from 0. None: that
+        which is named frame, picture, image, photo or file; without such a column row i is of
+        frame i.
+    header, roles, bins
+        As for :func:`rlvc.learn_from`.
+    scale_depth : bool
+        As for :class:`Frames`.
+    **options
+        ``actions``, ``steps``, ``seed`` and fields of :class:`rlvc.Config`, as for
+        :func:`rlvc.learn_from`.
+
+    Returns
+    -------
+    Run
+        Its ``encoder`` is the eye: it takes pictures.
+
+    Raises
+    ------
+    LogError
+        The log is damaged, or names a frame that there is not. The message names the line.
+    PictureError
+        A frame cannot be read. The message names it.
+    """
+    frames = Frames(source, scale_depth)
+    table = table_of(find_log(source) if log is None else log, header)
+    name = _numbered(table, column, frames)
+    read = from_table(table, [name], bins, given=roles)
+    read.after[name] = np.where(read.ends == TERMINATED, read.before[name], read.after[name])
+    numbers = np.unique([read.before[name], read.after[name]]).astype(int).tolist()
+    eye = _fitted_eye(frames, numbers) if eye is None else eye
+    percepts = {number: eye.encode(picture) for number, picture in frames.pictures(numbers)}
+    missing = [number for number in numbers if number not in percepts]
+    if missing:
+        raise LogError(f"{read.where}: {source} has no frame {missing[0]}: it ends before")
+    run = learn_from(read, encoder=_Seen(eye, percepts), **options)
+    run.encoder = eye  # type: ignore[assignment]
+    return run
