@@ -78,8 +78,8 @@ static void test_scores_follow_the_formula(void **state) {
     assert_true(fabs((double)archive.beta - beta) < 1e-4);
     assert_true(fabs((double)archive.common - common) < 1e-3);
     assert_true(fabs((double)archive.deviation - sqrt((squares + 64.0) / 19.0)) < 1e-2);
-    double scores[2] = {beta * 60.0 + (sum[0] + 4.0 * common) / 14.0,
-                        beta * 40.0 + (sum[1] + 4.0 * common) / 14.0};
+    double scores[2] = {beta * 60.0 + (sum[0] + 12.0 * common) / 22.0,
+                        beta * 40.0 + (sum[1] + 12.0 * common) / 22.0};
     assert_true(fabs((double)archive.trial[0].score - scores[0]) < 1e-2);
     assert_true(fabs((double)archive.trial[1].score - scores[1]) < 1e-2);
     assert_false(rlvc_archive_flat(&archive, 1e6f));

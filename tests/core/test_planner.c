@@ -173,6 +173,65 @@ static uint32_t end_episode(player *p) {
     return p->planner->searches;
 }
 
+/* What a policy earns from a start in one of the models, by the luck of an episode. */
+static float earned_in(const rlvc_planner *planner, uint32_t k, const rlvc_small_tree *tree,
+                       const float *start, uint32_t episode) {
+    float s[2];
+    const rlvc_dynamics models[RLVC_ROLLOUT_MODELS] = {planner->model[k], planner->model[k]};
+    rlvc_rollout_input in = {models, 0, 0, NULL, 1};
+    rlvc_rollout rollout = {0};
+    in.horizon = rlvc_planner_horizon(planner);
+    in.seed = planner->config.seed * 31u + 1u;
+    rollout.s = s;
+    rlvc_rollout_begin(&rollout, &in, start, episode);
+    while (!rollout.done)
+        rlvc_rollout_step(&rollout, &in, tree, NULL);
+    return rollout.total;
+}
+
+/* @return of how many episodes it is known what was promised: the mean over the models. */
+static uint32_t check_promises(const rlvc_planner *planner) {
+    uint32_t known = 0;
+    for (uint32_t i = 0; i < planner->archive.count; i++) {
+        const rlvc_trial *trial = planner->archive.trial + i;
+        for (uint32_t e = 0; e < trial->valued; e++, known++) {
+            const float *start = rlvc_archive_start(&planner->archive, i, e);
+            float sum = 0.0f;
+            for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++)
+                sum += earned_in(planner, k, &trial->tree, start, e);
+            assert_true(trial->promised[e] == sum / 2.0f);
+        }
+    }
+    return known;
+}
+
+/* Also where an episode ends, and takes the place of another, between the models. */
+static void test_an_episode_is_promised_by_both_models(void **state) {
+    (void)state;
+    player p;
+    rlvc_planner *planner = play_anew(&p, 3, 900);
+    rlvc_progress progress;
+    assert_true(check_promises(planner) > 0);
+    assert_int_equal(planner_observe(planner, 0, 1.0f, p.world.s, RLVC_TRUNCATED), RLVC_OK);
+    rlvc_archive_forget(&planner->archive);
+    do
+        assert_int_equal(planner_learn(planner, rlvc_planning_grain(planner), &progress), RLVC_OK);
+    while (planner->planning.rolled == 0 && !progress.done);
+    assert_false(progress.done);
+    uint32_t policy = planner->planning.policy;
+    rlvc_trial *trial = planner->archive.trial + policy;
+    trial->episodes = RLVC_ARCHIVE_EPISODES; /* so that the next is where the first was */
+    trial->valued = 0;
+    begin(&p);
+    planner->acting.why = RLVC_PLANNER_NEW;
+    planner->acting.trial = policy;
+    planner->acting.serial = trial->serial;
+    assert_int_equal(planner_observe(planner, 0, 1.0f, p.world.s, RLVC_TRUNCATED), RLVC_OK);
+    learn(planner);
+    assert_int_equal(trial->valued, RLVC_ARCHIVE_EPISODES);
+    assert_true(check_promises(planner) > RLVC_ARCHIVE_EPISODES);
+}
+
 /* After searches without gain the next one waits, but not for ever. */
 static void test_searches_pause(void **state) {
     (void)state;
@@ -619,6 +678,7 @@ int main(void) {
         cmocka_unit_test(test_nodes_are_the_policy),
         cmocka_unit_test(test_slices_change_nothing),
         cmocka_unit_test(test_learning_while_acting),
+        cmocka_unit_test(test_an_episode_is_promised_by_both_models),
         cmocka_unit_test(test_searches_pause),
         cmocka_unit_test(test_discoveries_are_policies),
         cmocka_unit_test(test_a_hopeless_candidate),

@@ -10,7 +10,7 @@
 #define BETA_LEAST 0.05f
 #define FINALISTS 4u
 #define LEAF_PRICE 0.004f
-#define COMMON_EPISODES 4.0f /* that the common difference counts for in a score */
+#define COMMON_EPISODES 12.0f /* that the common difference counts for in a score */
 
 void rlvc_archive_carve(rlvc_archive *archive, rlvc_arena *arena, uint32_t components) {
     memset(archive, 0, sizeof *archive);

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* The policies that were tried, each with a score: the model's promise, corrected by real returns.
+/* The policies that were tried, each with a score: the models' promise, corrected by real returns.
  *
- * M(s) is the return that the model promises from a start s. beta, in [0.05, 1], is the slope of
+ * M(s) is the return that the models promise from a start s. beta, in [0.05, 1], is the slope of
  * the regression of real on promised returns over all episodes; it says how far the model is
  * trusted. An episode that starts in s differs from its promise by return - beta M(s). So
  *
- *     score = beta mean M(starts) + (sum of (return - beta M(s)) + 4 common) / (episodes + 4),
+ *     score = beta mean M(starts) + (sum of (return - beta M(s)) + 12 common) / (episodes + 12),
  *
- * where the common difference counts as four more episodes. The score removes the luck of the start
- * when episodes are few. It also ranks policies that were never tried among those that were. */
+ * where the common difference counts as twelve more episodes. The score removes the luck of the
+ * start when episodes are few. It also ranks policies that were never tried among those that were.
+ */
 #ifndef RLVC_SRC_ARCHIVE_H
 #define RLVC_SRC_ARCHIVE_H
 
@@ -21,7 +22,7 @@
 typedef struct rlvc_trial {
     rlvc_small_tree tree;
     float earned[RLVC_ARCHIVE_EPISODES];   /* the returns of its last episodes */
-    float promised[RLVC_ARCHIVE_EPISODES]; /* what the model promises from their starts */
+    float promised[RLVC_ARCHIVE_EPISODES]; /* what the models promise from their starts */
     float promise;                         /* mean over the common starts */
     float score;
     uint32_t serial;   /* no two policies have the same */

@@ -35,6 +35,7 @@ typedef struct rlvc_planning_cursor {
     uint8_t derives; /* the search began at the best policy */
     uint8_t derived; /* so did the one that made the candidate */
     uint8_t rolling;
+    uint8_t rolled; /* models that the episode was rolled out in */
     uint8_t phase;
 } rlvc_planning_cursor;
 

@@ -42,7 +42,7 @@ uint32_t rlvc_planning_grain(const rlvc_planner *planner) {
 static void enter(rlvc_planner *planner, uint8_t phase) {
     planner->planning.phase = phase;
     planner->planning.at = 0;
-    planner->planning.rolling = 0;
+    planner->planning.rolling = planner->planning.rolled = 0;
     planner->planning.value_sum = 0.0f;
     if (phase == DONE)
         planner->learning = 0;
@@ -152,6 +152,30 @@ static int mean_step(rlvc_planner *planner, const rlvc_small_tree *tree) {
     return 1;
 }
 
+/* One step of what is promised from the start of an episode: the mean over the models. What one
+ * rollout earns is mostly luck, and beta would be small for that. */
+static void episode_step(rlvc_planner *planner, rlvc_trial *trial) {
+    rlvc_planning_cursor *planning = &planner->planning;
+    rlvc_rollout_input in = rollout_input(planner, 1u, 1);
+    if (!planning->rolling) {
+        const float *start = rlvc_archive_start(&planner->archive, planning->policy, trial->valued);
+        rlvc_rollout_begin(&planning->rollout, &in, start, trial->valued);
+        planning->rollout.model = planning->rolled;
+        planning->rolling = 1;
+    }
+    rlvc_rollout_step(&planning->rollout, &in, &trial->tree, NULL);
+    if (!planning->rollout.done)
+        return;
+    planning->rolling = 0;
+    float sum = planning->rollout.total + (planning->rolled > 0 ? planning->value_sum : 0.0f);
+    planning->value_sum = sum;
+    if (++planning->rolled < RLVC_ROLLOUT_MODELS)
+        return;
+    planning->rolled = 0;
+    planning->value_sum = 0.0f;
+    trial->promised[trial->valued++] = sum / (float)RLVC_ROLLOUT_MODELS;
+}
+
 /* One step of a promise that is missing: of a policy at the common starts, or of one of its
  * episodes. */
 static uint32_t promise(rlvc_planner *planner) {
@@ -170,17 +194,7 @@ static uint32_t promise(rlvc_planner *planner) {
             planning->value_sum = 0.0f;
         }
     } else if (trial->valued < rlvc_trial_kept(trial)) {
-        rlvc_rollout_input in = rollout_input(planner, 1u, 1);
-        if (!planning->rolling)
-            rlvc_rollout_begin(&planning->rollout, &in,
-                               rlvc_archive_start(archive, planning->policy, trial->valued),
-                               trial->valued);
-        planning->rolling = 1;
-        rlvc_rollout_step(&planning->rollout, &in, &trial->tree, NULL);
-        if (planning->rollout.done) {
-            trial->promised[trial->valued++] = planning->rollout.total;
-            planning->rolling = 0;
-        }
+        episode_step(planner, trial);
     } else {
         planning->policy++;
         return 1u;
