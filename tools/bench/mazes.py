@@ -10,6 +10,10 @@ and `corridors31` (perfect mazes: one way from each cell to the exit in a corner
 after how many interactions every cell is optimal ("-": never), the cells that are optimal in the end,
 the same of the compact policy, classes, leaves of that policy and of the smallest optimal tree, the
 value before and after compaction, and seconds. Maze and learner have the same seed: 1, 2, 3, ...
+
+An episode ends at the exit. So a cell behind it, with no other way to the rest, is seen only if an
+episode begins there: of each such part of a maze, in order of size, it is told how many of its cells
+are optimal, and of the rest how many moves the nearest one is away from the exit.
 """
 
 import argparse
@@ -69,6 +73,42 @@ def corridors(side, draw):
     return free, (side - 1, side - 1)
 
 
+def distances(free, exit_cell):
+    """Moves to the exit from each cell."""
+    moves, front = {exit_cell: 0}, [exit_cell]
+    for x, y in front:
+        for cell in ((x + dx, y + dy) for dx, dy in WAYS):
+            if cell in free and cell not in moves:
+                moves[cell] = moves[x, y] + 1
+                front.append(cell)
+    return moves
+
+
+def parts_of(free, exit_cell):
+    """The cells but the exit, in parts that have a way to each other without it; the largest first."""
+    parts, left = [], set(free) - {exit_cell}
+    while left:
+        parts.append(reached_from(min(left), left))
+        left -= parts[-1]
+    return sorted(parts, key=len, reverse=True)
+
+
+def describe_parts(run, free, exit_cell):
+    """How many cells of each part are optimal, and how near to the exit one is that is not."""
+    moves = distances(free, exit_cell)
+    ways = dict(zip(("up", "right", "down", "left", None), (*WAYS, (0, 0)), strict=True))
+
+    def is_right(x, y):
+        dx, dy = ways[run["cell_actions"][y][x]]
+        return moves.get((x + dx, y + dy)) == moves[x, y] - 1
+
+    wrong = {cell for cell in moves if cell != exit_cell and not is_right(*cell)}
+    parts = parts_of(free, exit_cell)
+    counts = ", ".join(f"{len(part - wrong)} of {len(part)}" for part in parts)
+    nearest = min((moves[cell] for cell in wrong & parts[0]), default=None)
+    return counts if nearest is None else f"{counts}, wrong {nearest} moves away"
+
+
 def text_of(side, free, exit_cell):
     def mark(cell):
         return "*" if cell == exit_cell else "." if cell in free else "#"
@@ -93,12 +133,14 @@ def compare(program, kind, discount, interactions, folder):
     print(f"{kind}: {side} x {side}, {interactions:,} interactions, discount {discount:g}")
     runs = []
     for seed in range(1, mazes + 1):
-        maze = text_of(side, *draw_maze(side, random.Random(seed)))
+        free, exit_cell = draw_maze(side, random.Random(seed))
+        maze = text_of(side, free, exit_cell)
         run = learn(program, maze, interactions, seed, discount, folder)
         runs.append(run)
         print(
             f"  {seed:2}  {run['interactions_to_optimal'] or '-':>6}",
             f"{run['optimal_cells']} of {run['cells']}  compact {run['policy_optimal_cells']}",
+            f"parts {describe_parts(run, free, exit_cell)}",
             f"classes {run['classes']}  leaves {run['policy_leaves']} of {run['fewest_leaves']}",
             f"value {run['value_before']:.6g} {run['value_after']:.6g}  {run['seconds']:.2f} s",
             sep="  ",
