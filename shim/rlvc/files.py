@@ -51,7 +51,18 @@ def _need_file(mode: int) -> None:
         raise OSError(errno.EINVAL, f"it is {kind}, not a file")
 
 
-def _name(path: str | Path) -> str:
+def name_of(path: str | Path) -> str:
+    """Return the name of a file as the system has it.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Raises
+    ------
+    OSError
+        It is no name.
+    """
     try:
         name = os.fsdecode(path)
         os.fsencode(name)
@@ -78,7 +89,7 @@ def open_file(path: str | Path) -> BinaryIO:
     OSError
         It cannot be opened, or is not a regular file. It never waits for a FIFO.
     """
-    name = _name(path)
+    name = name_of(path)
     _need_file(os.stat(name).st_mode)  # opening a device may have effects
     file: BinaryIO = _opened(name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
     _need_file(os.fstat(file.fileno()).st_mode)
@@ -114,7 +125,7 @@ def replace(path: str | Path, content: bytes) -> None:
     """
     try:
         if fcntl is None:
-            _replace_by_name(_name(path), content)
+            _replace_by_name(name_of(path), content)
         else:
             _replace(path, content)
     except OSError as error:
@@ -122,7 +133,7 @@ def replace(path: str | Path, content: bytes) -> None:
 
 
 def _replace(path: str | Path, content: bytes) -> None:
-    where, name = os.path.split(_name(path))
+    where, name = os.path.split(name_of(path))
     folder = os.open(where or ".", os.O_RDONLY | os.O_DIRECTORY)
     try:
         mode = None
@@ -195,7 +206,7 @@ def tidy(path: str | Path) -> None:
     if fcntl is None:
         return
     with contextlib.suppress(OSError):
-        where, name = os.path.split(_name(path))
+        where, name = os.path.split(name_of(path))
         folder = os.open(where or ".", os.O_RDONLY | os.O_DIRECTORY)
         try:
             _tidy(folder, name)

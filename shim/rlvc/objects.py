@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from .checks import whole
+from .checks import listed, shown, whole
 from .errors import PictureError, RangeError
+from .files import name_of
 
 
 class Objects(NamedTuple):
@@ -154,12 +155,16 @@ def find(
         An angle or ``wanted`` is out of range.
     """
     library = _native.load_optional("rlvc-objects", _native.OBJECTS)
-    chosen = list(dict.fromkeys(int(angle) for angle in angles))
-    if not chosen or not all(0 <= angle < 360 for angle in chosen):
-        raise RangeError(f"angles: {list(angles)} are not in [0, 360)")
+    each = listed("angles", angles, "numbers", RangeError)
+    chosen = list(dict.fromkeys(whole("angles", angle, 0, 359, RangeError) for angle in each))
+    if not chosen:
+        raise RangeError("angles: give at least one")
     if not 1 <= wanted <= 65536:
         raise RangeError(f"wanted: {wanted} is not in [1, 65536]")
-    where = "" if folder is None else str(folder)
+    try:
+        where = "" if folder is None else name_of(folder)
+    except OSError as error:
+        raise PictureError(f"pictures: {shown(folder)}: {error.strerror}") from error
     handle, text = ctypes.c_void_p(), ctypes.create_string_buffer(512)
     numbers = np.array(chosen, np.int32)
     status = library.rlvc_shim_objects_find(

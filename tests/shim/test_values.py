@@ -6,7 +6,8 @@ import pytest
 from gymnasium import spaces
 
 import rlvc
-from rlvc import errors
+import rlvc.envs
+from rlvc import errors, fleet, plot
 
 
 class Raises:
@@ -60,6 +61,10 @@ def planner():
 
 NUMBER, REALS = rlvc.Encoder(spaces.Discrete(3)), rlvc.Encoder(spaces.Box(-1, 1, (3,)))
 SEEN = np.zeros(2, np.float32)
+LEARNT = rlvc.learn(rlvc.envs.BinaryGridworld(), 30, seed=1)
+PICTURES = np.zeros((60, 8, 8, 3), np.uint8)
+GROUND = np.zeros((400, 400, 3), np.uint8)
+LOG = {"observation": [0, 1], "action": [0, 1], "reward": [0.0, 1.0], "terminated": [False, True]}
 ROWS = np.eye(2, dtype=bool)
 LEAF = (0.0, 65535, 0, 0)
 CALLS = {
@@ -103,12 +108,23 @@ CALLS = {
     "rows of reals": REALS.encode_many,
     "env": lambda value: rlvc.learn(value, 10),
     "environments": lambda value: rlvc.learn_many(value, 10, seeds=2),
+    "render_mode": lambda value: rlvc.envs.BinaryGridworld(render_mode=value),
+    "placement": lambda value: rlvc.envs.TiledGridworld(pictures=PICTURES, placement=value),
+    "goal": lambda value: rlvc.envs.GroundView(GROUND, 16, goal=value),
+    "walls": lambda value: rlvc.envs.GroundView(GROUND, 16, walls=value),
+    "wall": lambda value: rlvc.envs.GroundView(GROUND, 16, walls=[value]),
+    "columns": lambda value: rlvc.learn_from(LOG, columns=value),
+    "history": lambda value: rlvc.learn_from(LOG, history=value),
+    "source": fleet.learn_from,
+    "drawing": lambda value: plot.splits(LEARNT, value),
+    "axes": lambda value: plot.splits(LEARNT, ax=value),
     "words": lambda value: rlvc.Actions(2, words=value),
 }  # fmt: skip
 HARMLESS = {  # texts can be made of it, or there are none
     ("words", "an array"), ("words", "an empty array"), ("words", "a record"),
     ("words", "lists of several lengths"), ("words", "half a number"), ("words", "a list that cannot be spelt"),
     ("names", "an empty array"), ("rows of reals", "an empty array"), ("observations", "an empty array"),
+    ("walls", "an empty array"), ("columns", "an empty array"),
 }  # fmt: skip
 PAIRS = [(call, value) for call in CALLS for value in VALUES if (call, value) not in HARMLESS]
 

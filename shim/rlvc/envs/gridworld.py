@@ -12,7 +12,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from .. import _native, files
-from ..checks import real, shown, whole
+from ..checks import one_of, real, whole
 from ..errors import ConfigError, MazeError
 from .maze import Maze
 from .moving import Moving
@@ -42,8 +42,8 @@ class Gridworld(Moving[_Observation], Generic[_Observation]):
                 maze = files.read(maze).decode()
             except (OSError, UnicodeDecodeError) as error:
                 raise MazeError(f"{maze}: cannot be read: {error}") from error
-        if render_mode not in (None, "ansi"):
-            raise ConfigError(f"render_mode: {shown(render_mode)} is not None or 'ansi'")
+        if render_mode is not None:
+            one_of("render_mode", render_mode, ("ansi",))
         self.maze = Maze(maze)
         self.distractors = whole("distractors", distractors, 0, _native.BITS_MAX)
         self.slip = real("slip", slip)

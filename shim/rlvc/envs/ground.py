@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
-from ..checks import real, shown, whole
+from ..checks import listed, real, shown, whole
 from ..errors import ConfigError, PictureError
 from .moving import Moving
 
@@ -109,7 +109,7 @@ class GroundView(Moving[_Picture]):
         self.scale, self.light = _within("scale", scale, 0, 0.5), _within("light", light, 0, 0.5)
         self.noise = _within("noise", noise, 0, 100)
         self.radius = 0.75 * self.stride if radius is None else _within("radius", radius, 1, 1e4)
-        self.walls = [tuple(map(float, wall)) for wall in walls]
+        self.walls = [_numbers("wall", wall, 4) for wall in listed("walls", walls, "walls")]
         margin = self.view / 2 * (np.sqrt(2) if self.turn else 1) * (1 + self.scale) + 1
         self.low = np.array([margin, margin])
         self.high = np.array(self.picture.shape[1::-1]) - margin
@@ -118,7 +118,7 @@ class GroundView(Moving[_Picture]):
                 f"picture: {self.picture.shape[1]} x {self.picture.shape[0]} pixels are too few for a "
                 f"view of {self.view} and moves of {self.stride:g}"
             )
-        shares = [_within("goal", share, 0, 1) for share in goal]
+        shares = [_within("goal", share, 0, 1) for share in _numbers("goal", goal, 2)]
         self.goal = self.low + np.array(shares) * (self.high - self.low)
         self.observation_space = spaces.Box(0, 255, (self.view, self.view, 3), np.uint8)
         self.position = self.low.copy()
@@ -195,6 +195,13 @@ def _within(name: str, value: Any, low: float, high: float) -> float:
     if not low <= number <= high:
         raise ConfigError(f"{name}: {shown(value)} is not in [{low:g}, {high:g}]")
     return number
+
+
+def _numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
+    numbers = tuple(real(name, number) for number in listed(name, value, "numbers"))
+    if len(numbers) != count:
+        raise ConfigError(f"{name}: {shown(value)} has {len(numbers)} numbers, expected {count}")
+    return numbers
 
 
 def _checked(picture: Any) -> _Picture:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from .. import objects
+from ..checks import whole
 from ..errors import PictureError
 from .gridworld import Gridworld
 
@@ -51,7 +52,7 @@ class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
     PictureError
         There are fewer objects than cells, or a picture cannot be used.
     ConfigError
-        ``slip`` is not in [0, 1].
+        ``slip`` is not in [0, 1], or ``placement`` not at least 0.
     ImportError
         The vision module is missing. The message says what to install.
     """
@@ -77,6 +78,7 @@ class TiledGridworld(Gridworld[npt.NDArray[np.uint8]]):
             raise PictureError(f"pictures: {count} objects for {len(cells)} cells")
         order = np.arange(count)
         if placement is not None:
+            placement = whole("placement", placement, 0, 2**63 - 1)
             np.random.default_rng(placement).shuffle(order)
         self.object_of = np.full(len(signs), -1)
         self.object_of[cells] = order[: len(cells)]

@@ -11,6 +11,7 @@ import dataclasses
 import hashlib
 import io
 import json
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -158,7 +159,7 @@ def load(
     ConfigError
         It was made from other data or options.
     """
-    if not Path(file).exists():
+    if not os.path.exists(file):
         return None
     try:
         with np.load(io.BytesIO(read(file)), allow_pickle=False) as archive:
@@ -167,7 +168,7 @@ def load(
         same = (head["version"], head["made_from"]) == (_VERSION, made_from)
         state = _state(head, arrays, asked) if same else None
     except Exception as error:  # of zipfile, of numpy's parser, of JSON
-        raise LogError(f"{file}: damaged: {error}: delete it to begin anew") from error
+        raise LogError(f"{file}: damaged: {error!s:.300}: delete it to begin anew") from error
     if not same:
         raise ConfigError(
             f"checkpoint: {file} was made from other data or options: name another file, or delete it"

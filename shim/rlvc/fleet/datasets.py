@@ -10,6 +10,7 @@ file or some episodes at a time.
 from __future__ import annotations
 
 import json
+import os
 import warnings
 from pathlib import Path
 from typing import Any
@@ -101,9 +102,9 @@ def minari_of(path: str) -> Any:
     if "://" in path:
         return None
     folder = Path(path)
-    inner = folder / "data" if (folder / "data/metadata.json").is_file() else folder
-    named = not folder.exists() and not folder.suffix
-    if not named and not (inner / "metadata.json").is_file():
+    inner = folder / "data" if os.path.isfile(folder / "data/metadata.json") else folder
+    named = not os.path.exists(folder) and not folder.suffix
+    if not named and not os.path.isfile(inner / "metadata.json"):
         return None
     try:
         import minari

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..checks import shown
 from ..errors import LogError
+from ..files import name_of
 from . import layout
 
 
@@ -19,8 +20,10 @@ def filesystem_of(path: str) -> tuple[Any, str]:
     path : str
     """
     pa = layout.arrow()
-    if "\0" in path:
-        raise LogError(f"{shown(path)}: not the name of a file")
+    try:
+        name_of(path)
+    except OSError as error:
+        raise LogError(f"{shown(path)}: {error.strerror}") from error
     if "://" not in path:
         return pa.fs.LocalFileSystem(), path
     try:

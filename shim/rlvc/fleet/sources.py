@@ -8,8 +8,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..checks import shown
 from ..counts.table import Columns
-from ..errors import LogError
+from ..errors import ConfigError, LogError
 from ..learning.actions import Actions
 from ..logs import read
 from ..logs.controller_log import is_records
@@ -146,10 +147,17 @@ def _of_minari(path: str, dataset: Any, real: bool) -> Source:
 
 def _all_of(given: Any, real: bool) -> Iterator[tuple[str, Source]]:
     """Yield names, and what each holds."""
-    path = str(given)
-    if hasattr(given, "iterate_episodes"):
-        path = str(given.storage.data_path)
-    dataset = given if hasattr(given, "iterate_episodes") else datasets.minari_of(path)
+    if isinstance(given, str | Path):
+        path = str(given)
+        dataset = datasets.minari_of(path)
+    else:
+        dataset = given
+        try:
+            path = str(given.storage.data_path)  # of Minari
+        except Exception:
+            raise ConfigError(
+                f"source: {shown(given)} is no path, address or Minari data set"
+            ) from None
     if dataset is not None:
         yield path, _of_minari(path, dataset, real)
         return

@@ -218,7 +218,7 @@ def learn_from(
         raise ConfigError("criterion: returns needs a log with exploited")
     if space is not None and not hasattr(space, "spaces"):
         log = _alone(log)
-    if history != 1:
+    if whole("history", history, 1, 2**16) != 1:
         if encoder is not None:
             raise ConfigError("history: goes with the encoders of this package: leave encoder out")
         log, space = with_history(log, history, space), None

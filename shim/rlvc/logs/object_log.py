@@ -244,7 +244,7 @@ def from_npz(path: str | Path, header: Sequence[str] | None = None, **arguments:
         except LogError:
             raise
         except Exception as error:  # of zipfile, of what it unpacks with, of numpy's parser
-            raise LogError(f"{path}: cannot be read as NPZ: {error}") from error
+            raise LogError(f"{path}: cannot be read as NPZ: {error!s:.300}") from error
     if len(arrays) == 1:  # all in one
         arrays = next(iter(arrays.values()))
     elif header is not None:

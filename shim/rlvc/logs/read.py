@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import collections
+import os
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -126,11 +127,17 @@ def _episode(episode: Any) -> dict[str, Any]:
     return {**arrays, "terminated": np.asarray(ends)}
 
 
+def _has_parquet(folder: str | Path) -> bool:
+    """Whether there is a Parquet file in a folder, or in one of those within, whatever else is."""
+    inner = os.walk(folder)  # it passes by what cannot be listed
+    return any(name.endswith(".parquet") for _, _, names in inner for name in names)
+
+
 def _from_file(path: str | Path, header: Sequence[str] | None, options: dict[str, Any]) -> Log:
-    if isinstance(path, str) and not Path(path).suffix and not _exists(path):
+    if isinstance(path, str) and not Path(path).suffix and not os.path.exists(path):
         return from_minari(path, options["bins"])
-    if _is_folder(path):
-        if not any(Path(path).rglob("*.parquet")):
+    if os.path.isdir(path):
+        if not _has_parquet(path):
             raise LogError(f"{path}: a folder without Parquet files: pass a file")
         return from_parquet(path, **options)
     if is_records(path):
@@ -145,20 +152,6 @@ def _from_file(path: str | Path, header: Sequence[str] | None, options: dict[str
     else:
         made = _OTHERS[kind](path, **options)
     return made
-
-
-def _exists(name: str) -> bool:
-    try:
-        return Path(name).exists()
-    except (OSError, ValueError):
-        return False
-
-
-def _is_folder(path: str | Path) -> bool:
-    try:
-        return Path(path).is_dir()
-    except (OSError, ValueError):
-        return False
 
 
 def _kind(path: str | Path) -> str:

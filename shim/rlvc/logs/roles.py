@@ -239,7 +239,8 @@ def roles_of(
         raise ConfigError("roles: columns= names the observation already")
     wanted = chosen.pop("observation", [])
     if columns is not None:
-        wanted = listed("columns", columns, "names")
+        asked = listed("columns", columns, "names")
+        wanted = [name if isinstance(name, str) else shown(name) for name in asked]
     after = chosen.pop("next_observation", [])
     for name in wanted:
         if name not in there:

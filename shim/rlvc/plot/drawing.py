@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 import matplotlib as mpl
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
@@ -21,6 +22,7 @@ from .. import report as _report
 from ..agent.agent import Agent
 from ..agent.planner import Planner
 from ..agent.policy import Policy
+from ..checks import named, shown
 from ..errors import RunError
 from ..words import explain
 
@@ -59,7 +61,9 @@ def run_of(source: Source, kind: str) -> Any:
 def axes_of(ax: Any, width: float, height: float) -> tuple[Figure, Any]:
     """Return the axes to draw into with their figure, or new ones of this size in inches."""
     if ax is not None:
-        return ax.figure, ax
+        if not isinstance(ax, Axes):
+            raise RunError(f"ax: {shown(ax)} is not an Axes of Matplotlib")
+        return ax.figure, ax  # type: ignore[return-value]  # a part of a figure draws as well
     figure = Figure(figsize=(width, height), layout="constrained")
     return figure, figure.subplots()
 
@@ -152,8 +156,8 @@ def save(figure: Figure, file: str | Path | None) -> Figure:
 
 def check_name(file: str | Path) -> None:
     """Raise RunError unless the file is a .png, a .svg or a .pdf."""
-    if Path(file).suffix.lower() not in (".png", ".svg", ".pdf"):
-        raise RunError(f"{file}: the file must be a .png, a .svg or a .pdf")
+    if not isinstance(file, str | Path) or Path(file).suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise RunError(f"{named(file)}: the file must be a .png, a .svg or a .pdf")
 
 
 def explained(name: str, report: dict[str, Any]) -> str:
