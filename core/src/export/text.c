@@ -33,6 +33,7 @@ typedef struct wide {
 } wide;
 
 static void normalize(wide *x) {
+    //@ loop unroll 6;
     for (uint32_t shift = 32; shift > 0; shift /= 2u)
         if (x->mantissa < UINT64_C(1) << (64u - shift)) {
             x->mantissa <<= shift;
@@ -121,8 +122,8 @@ static uint32_t spell(uint64_t whole, uint32_t count, char *digit) {
     for (; count > 1 && whole % 10u == 0; whole /= 10u)
         count--;
     //@ loop unroll 9;
-    for (uint32_t i = count; i-- > 0; whole /= 10u)
-        digit[i] = (char)('0' + (int)(whole % 10u));
+    for (uint32_t i = count; i > 0; whole /= 10u)
+        digit[--i] = (char)('0' + (int)(whole % 10u));
     return count;
 }
 

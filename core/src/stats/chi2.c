@@ -35,7 +35,7 @@
 
 #define STATISTIC_MIN 1e-37f /* less counts as 0: x/2 would be no normal float */
 #define P_MIN 1e-30f         /* less is not told apart by its logarithm's rounding */
-#define LOG_P_MIN -104.0f    /* less is below the least float */
+#define DAMPED_MAX 1400.0f   /* from there on p is below the least float, for all degrees */
 
 /* m * 2^e, m in [1, 2) or (a sum) in [1/64, 64]. */
 typedef struct scaled {
@@ -122,7 +122,7 @@ static void survival(float x, uint32_t k, float *p, float *log_p) {
         scaled sum = upper_sum(x, k);
         float e = (float)sum.e;
         *log_p = e * RLVC_LN2_HIGH + (e * RLVC_LN2_LOW + rlvc_ln(sum.m)) - 0.5f * x;
-        *p = *log_p < LOG_P_MIN ? 0.0f : damped(sum, x);
+        *p = x <= DAMPED_MAX ? damped(sum, x) : 0.0f;
         if (*p >= P_MIN)
             *log_p = rlvc_ln(*p);
     }

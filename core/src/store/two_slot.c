@@ -45,13 +45,14 @@ static rlvc_status read_head(const rlvc_store *store, uint32_t index, rlvc_two_s
 /* RLVC_OK if the CRC is right, else RLVC_E_DAMAGED. */
 static rlvc_status check_whole(const rlvc_store *store, const rlvc_two_slot *slot) {
     unsigned char unit[RLVC_STORE_UNIT];
-    uint32_t crc = 0, base = base_of(store, slot->index);
-    for (uint32_t at = 0; at < slot->bytes; at += RLVC_STORE_UNIT) {
+    uint32_t crc = 0, base = base_of(store, slot->index), at = 0;
+    do { /* a plausible slot has a unit or more */
         uint32_t last = at + RLVC_STORE_UNIT == slot->bytes;
         if (store->read(store->ctx, base + at, unit, RLVC_STORE_UNIT) != 0)
             return RLVC_E_STORE;
         crc = rlvc_crc(crc, unit, RLVC_STORE_UNIT - (last ? CRC_BYTES : 0));
-    }
+        at += RLVC_STORE_UNIT;
+    } while (at < slot->bytes);
     return rlvc_get(unit + RLVC_STORE_UNIT - CRC_BYTES, CRC_BYTES) == crc ? RLVC_OK
                                                                           : RLVC_E_DAMAGED;
 }
@@ -165,8 +166,9 @@ void rlvc_stream_bytes(rlvc_stream *stream, void *data, uint32_t bytes) {
         return;
     }
     while (bytes > 0) {
-        uint32_t from = within_unit(stream), room = RLVC_STORE_UNIT - from;
-        uint32_t n = bytes < room ? bytes : room;
+        uint32_t n, from = within_unit(stream);
+        //@ split from;
+        n = bytes < RLVC_STORE_UNIT - from ? bytes : RLVC_STORE_UNIT - from;
         if (stream->mode == RLVC_STREAM_SAVE)
             memcpy(stream->unit + from, byte, n);
         else if (from == 0)
@@ -175,7 +177,7 @@ void rlvc_stream_bytes(rlvc_stream *stream, void *data, uint32_t bytes) {
             memcpy(byte, stream->unit + from, n);
         stream->crc = rlvc_crc(stream->crc, byte, n);
         stream->at += n;
-        if (stream->mode == RLVC_STREAM_SAVE && n == room)
+        if (stream->mode == RLVC_STREAM_SAVE && from + n == RLVC_STORE_UNIT)
             flush(stream);
         byte += n;
         bytes -= n;
