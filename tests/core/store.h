@@ -10,7 +10,9 @@
 
 #include <string.h>
 
+#ifndef MEDIUM_BYTES /* two slots */
 #define MEDIUM_BYTES 24576u
+#endif
 
 typedef struct medium {
     unsigned char bytes[MEDIUM_BYTES];

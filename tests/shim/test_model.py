@@ -71,6 +71,11 @@ def vectors_of(i):
     return np.array([[i % 4, i // 4]] * (1 + i % 2), np.float32)
 
 
+def placed_vectors_of(i):
+    vectors = vectors_of(i)
+    return vectors, np.arange(2 * len(vectors)).reshape(-1, 2) * (1 + i)
+
+
 # A domain, what its percepts look like, and a record that it refuses.
 DOMAINS = {
     "bits": (lambda: rlvc.Bits(3), bits_of, None),
@@ -79,6 +84,16 @@ DOMAINS = {
         lambda: rlvc.Descriptors(2, 2, 0.5),
         vectors_of,
         np.full((1, 2), np.inf, np.float32),
+    ),
+    "spatial": (
+        lambda: rlvc.Spatial(2, 2, 0.5, pairs=4),
+        placed_vectors_of,
+        (np.full((1, 2), np.nan, np.float32), np.zeros((1, 2))),
+    ),
+    "bags": (
+        lambda: rlvc.Bags(2, 2, 0.5, size=2),
+        vectors_of,
+        np.full((1, 2), np.nan, np.float32),
     ),
     "own": (Failing, bits_of, bits_of(PERCEPTS)),
 }

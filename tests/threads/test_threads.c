@@ -12,8 +12,9 @@
 
 #include <pthread.h>
 
-#define KINDS 5u    /* four domains of agents, and a planner */
-#define THREADS 15u /* three of each kind */
+#define DOMAINS (RLVC_DOMAIN_BAGS + 1u) /* of agents, by their kinds */
+#define KINDS (DOMAINS + 1u)            /* and a planner */
+#define THREADS (2u * KINDS)
 #define STORE_BYTES 65536u
 
 typedef struct task {
@@ -23,7 +24,7 @@ typedef struct task {
     unsigned char store[STORE_BYTES];
 } task;
 
-static rlvc_domain domains[KINDS - 1u];
+static rlvc_domain domains[DOMAINS];
 static task tasks[THREADS];
 
 /* ------------------------------------------------------------------ what comes out */
@@ -92,6 +93,7 @@ static void use_agent(task *t) {
 }
 
 static void use_planner(task *t) {
+    const rlvc_store store = {t, STORE_BYTES / 2, read_store, write_store, NULL, NULL};
     rlvc_thresholds thresholds;
     rlvc_domain domain;
     rlvc_config config;
@@ -104,6 +106,7 @@ static void use_planner(task *t) {
     must(rlvc_thresholds_default(&thresholds, SLIDER_COMPONENTS) == RLVC_OK);
     must(rlvc_thresholds_domain(&thresholds, &domain) == RLVC_OK);
     must(rlvc_config_default(&config, &domain, SLIDER_ACTIONS) == RLVC_OK);
+    config.capacity = 400;
     config.sample = 300;
     config.random = 100;
     config.candidates = 20;
@@ -125,13 +128,17 @@ static void use_planner(task *t) {
         do {
             must(rlvc_learn(planner, 5000, &progress) == RLVC_OK);
         } while (!progress.done);
+        must(rlvc_save(planner, &store) == RLVC_OK);
+        must(rlvc_load(&config, &domain, t->memory, sizeof t->memory, &store, &planner) == RLVC_OK);
     }
+    must(rlvc_print(planner, RLVC_PRINT_JSON, write_text, t) == RLVC_OK);
+    must(rlvc_export_c(planner, "policy", write_text, t, NULL) == RLVC_OK);
 }
 
 static void *run(void *argument) {
     task *t = (task *)argument;
     t->crc = 0;
-    if (t->kind < KINDS - 1u)
+    if (t->kind < DOMAINS)
         use_agent(t);
     else
         use_planner(t);
@@ -141,7 +148,7 @@ static void *run(void *argument) {
 int main(void) {
     pthread_t threads[THREADS];
     uint32_t alone[KINDS];
-    for (uint32_t kind = 0; kind < KINDS - 1u; kind++)
+    for (uint32_t kind = 0; kind < DOMAINS; kind++)
         domains[kind] = world_domain(kind, 0);
     for (uint32_t i = 0; i < THREADS; i++)
         tasks[i].kind = i % KINDS;
