@@ -31,6 +31,7 @@ class Target:
     programs: tuple = ("row", "reals")
     beside: tuple = ()  # sources that a program needs there
     orders: bool = False  # exchanges snapshots and logs with the first target
+    packaged: bool = False  # a package of tools/packages is built and run for it with these options, too
 
 
 BARE = ("--crt0=semihost --oslib=semihost -Wl,--gc-sections -Wl,--defsym=__flash={flash} "
@@ -51,16 +52,17 @@ TARGETS = (
     Target("aarch64", "aarch64-linux-gnu-gcc", "-O1", "qemu-aarch64", "-static"),
     Target("PowerPC, big-endian", "powerpc-linux-gnu-gcc", "-O1", "qemu-ppc", "-static", orders=True),
     Target("AVR, int of 16 bits", "avr-gcc", ARDUINO + " -mmcu=atmega1284p", "simavr -m atmega1284p -f 16000000",
-           "-Wl,--gc-sections", programs=("row",), beside=("avr.c",)),
+           "-Wl,--gc-sections", programs=("row",), beside=("avr.c",), packaged=True),
     Target("Cortex-M4F", "arm-none-eabi-gcc",
            ARDUINO + " -mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16 --specs=picolibc.specs",
            "qemu-system-arm -M mps2-an386" + QEMU, BARE.format(flash="0", ram="0x20000000")),
     Target("Cortex-M3", "arm-none-eabi-gcc", "-std=c99 -Os -mthumb -mcpu=cortex-m3 --specs=picolibc.specs",
-           "qemu-system-arm -M mps2-an385" + QEMU, BARE.format(flash="0", ram="0x20000000"), programs=("row",)),
+           "qemu-system-arm -M mps2-an385" + QEMU, BARE.format(flash="0", ram="0x20000000"), programs=("row",),
+           packaged=True),
     Target("RISC-V of 32 bits", "riscv64-unknown-elf-gcc",
            "-std=gnu17 -Os -march=rv32imac -mabi=ilp32 --specs=picolibc.specs",
            "qemu-system-riscv32 -M virt -bios none" + QEMU, BARE.format(flash="0x80000000", ram="0x80200000"),
-           programs=("row",)),
+           programs=("row",), packaged=True),
     Target("Windows", "x86_64-w64-mingw32-gcc", "-O1", "/usr/lib/wine/wine64", orders=True),
     Target("RISC-V of 64 bits", "riscv64-unknown-elf-gcc",
            "-O1 -march=rv64imafdc -mabi=lp64d -mcmodel=medany --specs=picolibc.specs",
@@ -190,8 +192,12 @@ def compare(targets, results, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("target", nargs="*", help="part of the name of each to try; default: all")
-    wanted = parser.parse_args().target
+    parser.add_argument("--beside-packages", action="store_true", help="leave out what the packages are tried on")
+    arguments = parser.parse_args()
+    wanted = arguments.target
     chosen = [t for t in TARGETS[1:] if not wanted or any(w.lower() in t.name.lower() for w in wanted)]
+    if arguments.beside_packages:
+        chosen = [t for t in chosen if not t.packaged]
     skipped = {t.name: missing(t) for t in chosen if missing(t)}
     targets = [TARGETS[0], *(t for t in chosen if t.name not in skipped)]
     passed = failed = 0

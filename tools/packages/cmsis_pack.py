@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 import packing
 
 NAME = "rlvc.rlvc"  # vendor and pack
-FLAGS = ("-mcpu=cortex-m3", "-mthumb", "-std=gnu11", "-O1", "-ffunction-sections", "-fdata-sections",
+FLAGS = ("-mcpu=cortex-m3", "-mthumb", "-std=gnu11", "-Os", "-ffunction-sections", "-fdata-sections",
          "--specs=picolibc.specs")
 LINK = ("--crt0=semihost", "--oslib=semihost", "-Wl,--gc-sections", "-Wl,--defsym=__flash=0",
         "-Wl,--defsym=__flash_size=0x200000", "-Wl,--defsym=__ram=0x20000000", "-Wl,--defsym=__ram_size=0x10000")

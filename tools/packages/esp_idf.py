@@ -15,7 +15,7 @@ macro(idf_component_register)
     set(COMPONENT_LIB __idf_rlvc)
     add_library(${{COMPONENT_LIB}} STATIC ${{idf_SRCS}})
     target_include_directories(${{COMPONENT_LIB}} PUBLIC ${{idf_INCLUDE_DIRS}})
-    target_compile_options(${{COMPONENT_LIB}} PRIVATE -std=gnu17 -O1 -ffunction-sections -fdata-sections -Wall -Wextra
+    target_compile_options(${{COMPONENT_LIB}} PRIVATE -std=gnu17 -Os -ffunction-sections -fdata-sections -Wall -Wextra
                            -Werror=all -Wno-unused-parameter -Wno-sign-compare -Wno-enum-conversion)
 endmacro()
 add_subdirectory({component} rlvc)
