@@ -18,7 +18,7 @@ import sys
 
 import numpy as np
 
-from rlvc import objects, vision
+from rlvc import frames, objects
 
 THINGS, FRAMES, TRIED = 6, 400, 60
 random = np.random.default_rng(1)
@@ -45,7 +45,7 @@ for i in range(FRAMES):
     lines.append(f"frame{i}.ppm,{action},{int(action == box)},1")
 (folder / "log.csv").write_text("\n".join(lines) + "\n")
 
-run = vision.learn_from_frames(folder, discount=0.0)
+run = frames.learn_from_frames(folder, discount=0.0)
 print(run)
 tried = [look() for _ in range(TRIED)]
 right = [run.predict(picture) == box for picture, box in tried]

@@ -24,6 +24,7 @@ reinforcement learning".
 #     learning   the loop around a Gymnasium environment (section 4.2.1), and its result
 #     counts     learning from counts of interactions
 #     logs       learning from recorded interactions
+#     frames     learning from the frames of a camera, with a log beside them
 #     fleet      learning from the logs of many machines
 #     bench      what the package's calls cost
 #     cli        the commands of python -m rlvc

@@ -49,19 +49,19 @@ def sorts(run, views):
 
 
 def test_a_folder_with_its_log(folder, views):
-    from rlvc import vision
+    from rlvc import frames, vision
 
-    run = vision.learn_from_frames(folder, discount=0.0)
+    run = frames.learn_from_frames(folder, discount=0.0)
     assert sorts(run, views)
     assert run.agent.statistics.stored == 160
     assert isinstance(run.encoder, vision.Eye)
-    again = vision.learn_from_frames(folder, folder / "log.csv", eye=run.encoder, discount=0.0)
+    again = frames.learn_from_frames(folder, folder / "log.csv", eye=run.encoder, discount=0.0)
     assert again.text() == run.text()
 
 
 @pytest.mark.parametrize("how", ["without ending", "number", "paths", "in order", "other name"])
 def test_how_frames_are_named(folder, views, how):
-    from rlvc import vision
+    from rlvc import frames
 
     options = {}
     if how == "without ending":
@@ -77,12 +77,12 @@ def test_how_frames_are_named(folder, views, how):
     else:
         change(folder, "frame,", "seen,")
         options["column"] = "seen"
-    assert sorts(vision.learn_from_frames(folder, discount=0.0, **options), views)
+    assert sorts(frames.learn_from_frames(folder, discount=0.0, **options), views)
 
 
 def test_the_next_frame_is_in_the_next_row(tmp_path, views):
     """A walk over three things in a row, of which entering the third pays and ends it."""
-    from rlvc import vision
+    from rlvc import frames
 
     for i in range(3):
         write(tmp_path / f"{i}.ppm", views[i])
@@ -93,7 +93,7 @@ def test_the_next_frame_is_in_the_next_row(tmp_path, views):
         lines.append(f"{at}.ppm;{action};{int(to == 2)};{int(to == 2)}")
         at = to % 2
     (tmp_path.parent / f"{tmp_path.name}.csv").write_text("\n".join(lines) + "\n")
-    run = vision.learn_from_frames(tmp_path, discount=0.9)
+    run = frames.learn_from_frames(tmp_path, discount=0.9)
     assert [run.predict(view) for view in views[:2]] == [1, 1]
     values = run.agent.q.max(1)
     classes = [run.agent.predict(run.encoder.encode(view)).class_id for view in views[:2]]
@@ -101,11 +101,11 @@ def test_the_next_frame_is_in_the_next_row(tmp_path, views):
 
 
 def test_what_is_wrong_is_named(folder, tmp_path):
-    from rlvc import vision
+    from rlvc import frames
 
     def told(error, match, where=folder, *arguments, **options):
         with pytest.raises(error, match=match):
-            vision.learn_from_frames(where, *arguments, discount=0.0, **options)
+            frames.learn_from_frames(where, *arguments, discount=0.0, **options)
 
     content = (folder / "log.csv").read_text()
     told(errors.PictureError, "neither a folder of pictures nor a video", tmp_path / "none")
@@ -130,19 +130,19 @@ def test_what_is_wrong_is_named(folder, tmp_path):
 
 
 def test_sixteen_bits(folder, views):
-    from rlvc import vision
+    from rlvc import frames
 
     write(folder / "frame3.ppm", views[3], 16)
     with pytest.raises(errors.PictureError, match=r"frame3\.ppm: a picture of 8 bits"):
-        vision.learn_from_frames(folder)
-    assert sorts(vision.learn_from_frames(folder, scale_depth=True, discount=0.0), views)
+        frames.learn_from_frames(folder)
+    assert sorts(frames.learn_from_frames(folder, scale_depth=True, discount=0.0), views)
     assert (objects.read(folder / "frame3.ppm", scale_depth=True) == views[3]).all()
     assert objects.read(folder / "frame2.ppm", resize=16).shape == (16, 16, 3)
 
 
 def test_a_video(tmp_path, views):
     cv2 = pytest.importorskip("cv2")
-    from rlvc import vision
+    from rlvc import frames
 
     height, width = views.shape[1:3]
     video = cv2.VideoWriter(
@@ -155,21 +155,21 @@ def test_a_video(tmp_path, views):
         lines.append(f"{action},{int(action == i % THINGS % 2)},1")
     video.release()
     (tmp_path / "seen.csv").write_text("\n".join(lines) + "\n")
-    run = vision.learn_from_frames(tmp_path / "seen.avi", discount=0.0)
-    frames = dict(vision.Frames(tmp_path / "seen.avi").pictures(range(4, 8)))
-    assert list(frames) == [4, 5, 6, 7]
-    assert all(abs(frames[4 + i].astype(int) - views[i]).mean() < 5 for i in range(4))
-    assert sorts(run, frames.values())
+    run = frames.learn_from_frames(tmp_path / "seen.avi", discount=0.0)
+    shown = dict(frames.Frames(tmp_path / "seen.avi").pictures(range(4, 8)))
+    assert list(shown) == [4, 5, 6, 7]
+    assert all(abs(shown[4 + i].astype(int) - views[i]).mean() < 5 for i in range(4))
+    assert sorts(run, shown.values())
     (tmp_path / "seen.csv").write_text("\n".join([*lines, *lines[1:]]) + "\n")
     with pytest.raises(errors.LogError, match=r"seen\.avi has no frame 160: it ends before"):
-        vision.learn_from_frames(tmp_path / "seen.avi")
+        frames.learn_from_frames(tmp_path / "seen.avi")
     (tmp_path / "seen.avi").write_bytes(b"no video")
     with pytest.raises(errors.PictureError, match="not a video that can be read"):
-        vision.learn_from_frames(tmp_path / "seen.avi")
+        frames.learn_from_frames(tmp_path / "seen.avi")
 
 
 def test_from_a_shell(folder, tmp_path, capsys, views):
-    from rlvc import vision
+    from rlvc import frames, vision
 
     made = tmp_path / "metric.json"
     arguments = ["learn", "--frames", str(folder), "--discount", "0", "--save-metric", str(made)]
@@ -177,7 +177,7 @@ def test_from_a_shell(folder, tmp_path, capsys, views):
     assert "classes after 160 interactions" in capsys.readouterr().out
     assert "policy_act(const void *percept)" in (tmp_path / "sort.h").read_text()
     eye = vision.Eye(vision.Extractor(metric=vision.Metric.load(made)))
-    assert sorts(vision.learn_from_frames(folder, eye=eye, discount=0.0), views)
+    assert sorts(frames.learn_from_frames(folder, eye=eye, discount=0.0), views)
     for wrong in (
         ["learn", "--frames", str(tmp_path)],
         ["learn", "--frames", str(folder), "--log", "a.csv", "b.csv"],

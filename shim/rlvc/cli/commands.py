@@ -141,7 +141,7 @@ def learn_command(arguments: argparse.Namespace) -> int:
 
 def _learnt_from_frames(arguments: argparse.Namespace) -> Run:
     """Learn from what a camera saw."""
-    from ..vision import learn_from_frames
+    from ..frames import learn_from_frames
 
     found = arguments.log or [None]
     if len(found) > 1:

@@ -10,7 +10,6 @@ pixels. Source: ``vision/include/rlvc/vision.h``.
 from .config import DESCRIPTORS, VisionConfig
 from .extractor import Extractor, Sight
 from .eye import Eye
-from .frames import Frames, find_log, learn_from_frames
 from .metric import METRICS, Metric
 
 __all__ = [
@@ -18,10 +17,7 @@ __all__ = [
     "METRICS",
     "Extractor",
     "Eye",
-    "Frames",
     "Metric",
     "Sight",
     "VisionConfig",
-    "find_log",
-    "learn_from_frames",
 ]

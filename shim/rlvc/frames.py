@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Learning from what a camera saw: the frames of a folder or of a video, and a log beside them."""
+"""Learning from what a camera saw: the frames of a folder or of a video, and a log beside them.
+
+Needs the vision module, as :mod:`rlvc.vision` does.
+"""
 
 from __future__ import annotations
 
@@ -10,20 +13,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import objects
-from .._native import TERMINATED
-from ..checks import named
-from ..errors import LogError, PictureError
-from ..logs.csv_log import table_of
-from ..logs.learn_from import learn_from
-from ..logs.table import Table, from_table
-from .extractor import Extractor
-from .eye import Eye
-from .library import Picture
-from .metric import Metric
+from . import objects
+from ._native import TERMINATED
+from .checks import named
+from .errors import LogError, PictureError
+from .logs.csv_log import table_of
+from .logs.learn_from import learn_from
+from .logs.table import Table, from_table
+from .vision.extractor import Extractor
+from .vision.eye import Eye
+from .vision.library import Picture
+from .vision.metric import Metric
 
 if TYPE_CHECKING:
-    from ..learning.run import Run
+    from .learning.run import Run
 
 _SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".pgm", ".tif", ".tiff", ".webp")
 _NAMES = ("frame", "frames", "picture", "image", "img", "photo", "file", "filename", "frame_index")
