@@ -440,6 +440,25 @@ static void test_contradictions(void **state) {
     }
 }
 
+/* As many interactions as can be counted are let through, to where memory is asked for; one more is
+ * not. */
+static void test_the_most(void **state) {
+    (void)state;
+    configure(1);
+    play(200, 1, 0.0f);
+    for (uint32_t more = 0; more < 2u; more++) {
+        rlvc_progress progress;
+        uint64_t others = 0;
+        count(0, 1u << 20, 1);
+        for (uint32_t i = 1; i < counts.rows; i++)
+            others += row[i].count;
+        row[0].count = RLVC_COUNTS_MAX - others + more;
+        rlvc_agent *agent = agent_in(ring, sizeof ring);
+        assert_int_equal(rlvc_learn_counts(agent, &counts, workspace, 0, &progress),
+                         more ? RLVC_E_RANGE : RLVC_E_MEMORY);
+    }
+}
+
 static void test_missing_arrays(void **state) {
     (void)state;
     configure(1);
@@ -629,6 +648,7 @@ int main(void) {
         cmocka_unit_test(test_many),
         cmocka_unit_test(test_contradictions),
         cmocka_unit_test(test_more_than_is_said),
+        cmocka_unit_test(test_the_most),
         cmocka_unit_test(test_missing_arrays),
         cmocka_unit_test(test_strange_features),
         cmocka_unit_test(test_sums_of_nothing),

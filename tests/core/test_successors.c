@@ -10,7 +10,7 @@
 
 #include "block.h"
 #include "store.h"
-#include "agent/state.h"
+#include "agent/learn.h"
 #include "base/rng.h"
 #include "rlvc/bits.h"
 #include "split/successor_evidence.h"
@@ -340,6 +340,22 @@ static void test_dependence_without_a_feature(void **state) {
                      RLVC_E_DAMAGED);
 }
 
+/* What is looked at is charged: a search of 4 bits in so many samples is cut into many slices. */
+static void test_slices(void **state) {
+    (void)state;
+    life l;
+    rlvc_progress progress;
+    uint32_t slices[2] = {0, 0};
+    live(&l, 4, 1, 4);
+    do {
+        assert_int_equal(rlvc_learn(l.agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+        slices[0] += l.agent->learner.phase == RLVC_PHASE_INFLUENCE;
+        slices[1] += l.agent->learner.phase == RLVC_PHASE_SUCCESSORS;
+    } while (!progress.done);
+    assert_true(slices[0] > 4u * CAPACITY / RLVC_BUDGET_MIN);
+    assert_true(slices[1] > 4u);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_effect),
@@ -352,6 +368,7 @@ int main(void) {
         cmocka_unit_test(test_many_that_are_influenced),
         cmocka_unit_test(test_dependence_of_a_failing_callback),
         cmocka_unit_test(test_dependence_without_a_feature),
+        cmocka_unit_test(test_slices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
