@@ -4,6 +4,7 @@
 
 #include "rlvc/bags.h"
 
+#include "bag.h"
 #include "gather.h"
 #include "nearest.h"
 
@@ -12,44 +13,17 @@
 #define REFUSED (-1.0f)
 #define NEEDED_MAX 32e30f /* the largest tau, squared, by the most vectors */
 
-static rlvc_layout layout_of(const rlvc_bags *bags) {
-    const rlvc_descriptors *d = &bags->vectors;
-    const rlvc_layout layout = {
-        .d = d,
-        .feature_bytes = RLVC_BAGS_FEATURE_BYTES(bags->size, d->dimensions, d->form),
-        .feature_words = 2u + bags->size * rlvc_vectors_words(d),
-    };
-    return layout;
-}
-
-float rlvc_bags_needed(const void *feature) {
-    float needed;
-    memcpy(&needed, feature, sizeof needed);
-    return needed;
-}
-
-uint32_t rlvc_bags_count(const void *feature) {
-    return rlvc_vectors_count((const unsigned char *)feature + 4u);
-}
-
-/* The vectors of a feature lie behind its count as those of a percept do. */
-static void read_bag(const rlvc_layout *layout, const void *feature, rlvc_bag *bag) {
-    bag->count = rlvc_bags_count(feature);
-    for (uint32_t i = 0; i < bag->count; i++)
-        bag->vector[i] = rlvc_vectors_at(layout->d, (const unsigned char *)feature + 4u, i);
-}
-
 static uint8_t has_enough(const rlvc_layout *layout, const void *percept, const void *feature) {
     const float needed = rlvc_bags_needed(feature);
     rlvc_bag bag;
     if (needed < 0.0f)
         return 0;
-    read_bag(layout, feature, &bag);
+    rlvc_bag_read(layout, feature, &bag);
     return rlvc_bag_score(layout, &bag, percept, needed) >= needed;
 }
 
 static int exhibits(void *ctx, const void *percept, const void *feature, uint8_t *present) {
-    const rlvc_layout layout = layout_of((const rlvc_bags *)ctx);
+    const rlvc_layout layout = rlvc_bag_layout((const rlvc_bags *)ctx);
     if (rlvc_vectors_count(percept) > layout.d->points)
         return -1;
     *present = has_enough(&layout, percept, feature);
@@ -59,7 +33,7 @@ static int exhibits(void *ctx, const void *percept, const void *feature, uint8_t
 /* A percept at a time, while it is in the cache, against the whole block of features. */
 static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t n,
                   const void *features, uint32_t m, uint64_t *columns) {
-    const rlvc_layout layout = layout_of((const rlvc_bags *)ctx);
+    const rlvc_layout layout = rlvc_bag_layout((const rlvc_bags *)ctx);
     memset(columns, 0, m * sizeof *columns);
     for (uint32_t i = 0; i < n; i++) {
         const void *percept = rlvc_samples_percept(samples, first + i);
@@ -75,12 +49,12 @@ static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32
 static int candidates(void *ctx, const rlvc_samples *samples, uint32_t first, uint32_t room,
                       void *features, uint32_t *written) {
     const rlvc_bags *bags = (const rlvc_bags *)ctx;
-    const rlvc_layout layout = layout_of(bags);
+    const rlvc_layout layout = rlvc_bag_layout(bags);
     return rlvc_gather_candidates(&layout, bags->size, samples, first, room, features, written);
 }
 
 static int name(void *ctx, const void *feature, char *text, uint32_t room) {
-    const rlvc_layout layout = layout_of((const rlvc_bags *)ctx);
+    const rlvc_layout layout = rlvc_bag_layout((const rlvc_bags *)ctx);
     rlvc_vectors_name(&layout, "bag ", feature, text, room);
     return 0;
 }
@@ -121,7 +95,7 @@ rlvc_status rlvc_bags_domain(rlvc_bags *bags, rlvc_domain *domain) {
     if (rlvc_descriptors_domain(&bags->vectors, &made) != RLVC_OK || bags->size == 0 ||
         bags->size > RLVC_BAGS_SIZE_MAX)
         return RLVC_E_RANGE;
-    const rlvc_layout layout = layout_of(bags);
+    const rlvc_layout layout = rlvc_bag_layout(bags);
     made.ctx = bags;
     made.feature_bytes = layout.feature_bytes;
     made.feature_words = layout.feature_words;
@@ -144,7 +118,7 @@ rlvc_status rlvc_bags_nearest(const rlvc_bags *bags, const void *percept, const 
     const uint32_t count = rlvc_vectors_count(percept);
     if (count == 0 || count > bags->vectors.points || which >= rlvc_bags_count(feature))
         return RLVC_E_RANGE;
-    const rlvc_layout layout = layout_of(bags);
+    const rlvc_layout layout = rlvc_bag_layout(bags);
     const void *vectors = (const unsigned char *)feature + 4u;
     const rlvc_pattern pattern = {
         {rlvc_vectors_at(layout.d, vectors, which), NULL}, 0.0f, {0.0f, 0.0f}};

@@ -14,6 +14,7 @@
 
 #include "gather.h"
 
+#include "bag.h"
 #include "nearest.h"
 #include "rlvc/chi2.h"
 #include "runs.h"
@@ -56,23 +57,6 @@ typedef struct pool {
 } pool;
 
 /* ------------------------------------------------------------------ scores */
-
-float rlvc_bag_likeness(const rlvc_layout *layout, const void *vector, const void *percept) {
-    const float limit = layout->d->radius * layout->d->radius;
-    const rlvc_pattern pattern = {{vector, NULL}, 0.0f, {0.0f, 0.0f}};
-    uint32_t point[2];
-    rlvc_probe wanted;
-    rlvc_probe_open(layout, &pattern, &wanted);
-    return limit - rlvc_probe_nearest(&wanted, percept, 0.0f, limit, point);
-}
-
-float rlvc_bag_score(const rlvc_layout *layout, const rlvc_bag *bag, const void *percept,
-                     float enough) {
-    float sum = 0.0f;
-    for (uint32_t i = 0; i < bag->count && sum < enough; i++)
-        sum += rlvc_bag_likeness(layout, bag->vector[i], percept);
-    return sum;
-}
 
 static float whole_score(const parts *class_, const rlvc_bag *bag, const void *percept) {
     const float unlimited = 3e38f;

@@ -13,8 +13,10 @@
 
 #include "rlvc/agent.h"
 #include "rlvc/bags.h"
+#include "rlvc/thresholds.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define POINTS_MAX 12u
 #define DIMENSIONS_MAX 33u
@@ -251,6 +253,25 @@ static void test_nothing_to_tell(void **state) {
     assert_int_equal(written, 13);
 }
 
+/* One target shows a thing always, the other three times of four: nowhere can a bag of it be asked
+ * for so much that it parts them. */
+static void test_nothing_parts(void **state) {
+    (void)state;
+    uint32_t written = 0;
+    open_things(RLVC_DESCRIPTORS_INT8);
+    for (uint32_t i = 0; i < PERCEPTS; i++) {
+        see_thing(i, 0, 0);
+        set_count(i, i < PERCEPTS / 2u || i / 2u % 4u > 0 ? 4u : 0u); /* nothing behind it */
+        f.sample[i] = (rlvc_sample){2u * i / PERCEPTS, i};
+    }
+    assert_int_equal(f.domain.candidates(&bags, &f.samples, 0, 64, records, &written), 0);
+    assert_int_equal(written, 16);
+    for (uint32_t j = 0; j < written; j++) {
+        assert_int_equal(rlvc_bags_count(bag(j)), j % 2u == 0 ? 4 : 0);
+        assert_true(rlvc_bags_needed(bag(j)) < 0.0f);
+    }
+}
+
 /* The targets of two actions ascend apart, or one after the other: a thing is gathered all the
  * same. */
 static void test_actions(void **state) {
@@ -448,15 +469,167 @@ static void test_learning(void **state) {
     }
 }
 
+/* ------------------------------------------------------------------ weighing */
+
+#define ALL 4u /* things, and actions: each thing has its own that is right */
+
+static uint64_t weighing_memory[60000];
+
+static rlvc_agent *taught(uint32_t form) {
+    rlvc_config config;
+    rlvc_agent *agent;
+    rlvc_progress progress;
+    open_things(form);
+    assert_int_equal(rlvc_config_default(&config, &f.domain, ALL), RLVC_OK);
+    config.capacity = 400;
+    config.classes = 16;
+    assert_int_equal(
+        rlvc_agent_init(&config, &f.domain, weighing_memory, sizeof weighing_memory, &agent),
+        RLVC_OK);
+    for (uint32_t t = 0; t < config.capacity; t++) {
+        const uint32_t thing = rlvc_rng_below(&f.rng, ALL);
+        const rlvc_choice choice = {(uint8_t)rlvc_rng_below(&f.rng, ALL), 0};
+        see_thing(0, thing, 0);
+        assert_int_equal(rlvc_begin(agent, percept(0)), RLVC_OK);
+        assert_int_equal(rlvc_observe(agent, choice, choice.action == thing, NULL, RLVC_TERMINATED),
+                         RLVC_OK);
+    }
+    assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_UNBOUNDED, &progress), RLVC_OK);
+    return agent;
+}
+
+static uint32_t classes_of(const rlvc_agent *agent) {
+    rlvc_statistics statistics;
+    assert_int_equal(rlvc_stats(agent, &statistics), RLVC_OK);
+    return statistics.classes;
+}
+
+/* What the bags on a class's path weigh. */
+static double weight_of_path(const rlvc_agent *agent, uint32_t at, uint32_t class_id) {
+    rlvc_split split;
+    if (class_id == 0)
+        return 1.0;
+    assert_int_equal(rlvc_split_at(agent, class_id - 1u, &split, NULL), RLVC_OK);
+    const double parent = weight_of_path(agent, at, split.class_id);
+    assert_int_equal(rlvc_split_at(agent, class_id - 1u, NULL, bag(0)), RLVC_OK);
+    return fmin(1.0, parent) *
+           fmin(4.0, score_by_definition(at, 0) / (double)rlvc_bags_needed(bag(0)));
+}
+
+static double weight_by_definition(const rlvc_agent *agent, uint32_t at, uint32_t class_id) {
+    rlvc_split split;
+    double left = 1.0;
+    for (uint32_t j = 0; rlvc_split_at(agent, j, &split, NULL) == RLVC_OK; j++)
+        if (split.class_id == class_id)
+            left = 0.6;
+    return left * weight_of_path(agent, at, class_id);
+}
+
+static void check_weights(const rlvc_agent *agent, uint32_t at) {
+    float weight[16];
+    uint32_t class_id = 99, action = 99, best = 0, wanted = 99;
+    assert_int_equal(rlvc_bags_weigh(&bags, agent, percept(at), bag(1), weight, &class_id, &action),
+                     RLVC_OK);
+    for (uint32_t c = 0; c < classes_of(agent); c++) {
+        assert_true(fabs(weight_by_definition(agent, at, c) - (double)weight[c]) < 1e-4);
+        best = weight[c] > weight[best] ? c : best;
+    }
+    assert_int_equal(class_id, best);
+    assert_int_equal(rlvc_value(agent, best, NULL, &wanted), RLVC_OK);
+    assert_int_equal(action, wanted);
+}
+
+/* Numbers of a percept's vectors that are as far from their thing's as they can be and still count:
+ * of a thing so seen no bag has enough, but its own has the most. */
+static void blur(uint32_t i) {
+    for (uint32_t k = 0; k < count_of(percept(i)) * bags.vectors.dimensions; k++)
+        if (get_number(percept(i) + 4u, k) > 9.0)
+            set_number(percept(i) + 4u, k, 7);
+}
+
+static void test_weigh_refuses(void **state) {
+    (void)state;
+    float weight[16];
+    rlvc_agent *agent = taught(RLVC_DESCRIPTORS_FLOAT);
+    void *room = bag(1);
+    const void *seen = percept(0);
+    assert_int_equal(rlvc_bags_weigh(&bags, agent, seen, room, weight, NULL, NULL), RLVC_OK);
+    assert_int_equal(rlvc_bags_weigh(NULL, agent, seen, room, weight, NULL, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_bags_weigh(&bags, NULL, seen, room, weight, NULL, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_bags_weigh(&bags, agent, NULL, room, weight, NULL, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_bags_weigh(&bags, agent, seen, NULL, weight, NULL, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_bags_weigh(&bags, agent, seen, room, NULL, NULL, NULL), RLVC_E_NULL);
+    set_count(0, 9);
+    assert_int_equal(rlvc_bags_weigh(&bags, agent, seen, room, weight, NULL, NULL), RLVC_E_PERCEPT);
+}
+
+static void test_weigh_knows_no_plans(void **state) {
+    (void)state;
+    float weight[16];
+    rlvc_thresholds thresholds;
+    rlvc_domain domain;
+    rlvc_config config;
+    rlvc_agent *planner;
+    open_things(RLVC_DESCRIPTORS_FLOAT);
+    assert_int_equal(rlvc_thresholds_default(&thresholds, 1), RLVC_OK);
+    assert_int_equal(rlvc_thresholds_domain(&thresholds, &domain), RLVC_OK);
+    assert_int_equal(rlvc_config_default(&config, &domain, 2), RLVC_OK);
+    config.method = &rlvc_method_planner;
+    size_t bytes = 0;
+    assert_int_equal(rlvc_agent_size(&config, &domain, &bytes), RLVC_OK);
+    void *memory = malloc(bytes);
+    assert_int_equal(rlvc_agent_init(&config, &domain, memory, bytes, &planner), RLVC_OK);
+    assert_int_equal(rlvc_bags_weigh(&bags, planner, percept(0), bag(1), weight, NULL, NULL),
+                     RLVC_E_MISMATCH);
+    free(memory);
+}
+
+static void test_weigh(void **state) {
+    (void)state;
+    for (uint32_t form = 0; form <= RLVC_DESCRIPTORS_INT8; form++) {
+        rlvc_agent *agent = taught(form);
+        uint32_t predicted = 0;
+        assert_true(classes_of(agent) >= ALL && classes_of(agent) <= 16u);
+        for (uint32_t t = 0; t < 40u; t++) {
+            float weight[16];
+            uint32_t action = 99;
+            see_thing(0, t % ALL, t % 3u); /* as it was learnt, or in part */
+            check_weights(agent, 0);
+            blur(0);
+            see_thing(1, t % ALL, 4); /* nothing of it */
+            check_weights(agent, 1);
+            see_thing(0, t % ALL, 3);
+            blur(0);
+            check_weights(agent, 0);
+            assert_int_equal(
+                rlvc_bags_weigh(&bags, agent, percept(0), bag(1), weight, NULL, &action), RLVC_OK);
+            assert_int_equal(action, t % ALL);
+            assert_int_equal(rlvc_predict(agent, percept(0), NULL, &action), RLVC_OK);
+            predicted += action == t % ALL;
+        }
+        assert_true(predicted < 40u);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_detect),           cmocka_unit_test(test_nearest),
-        cmocka_unit_test(test_gathered),         cmocka_unit_test(test_nothing_to_gather),
-        cmocka_unit_test(test_damaged_percepts), cmocka_unit_test(test_name),
-        cmocka_unit_test(test_checks),           cmocka_unit_test(test_ranges),
-        cmocka_unit_test(test_learning),         cmocka_unit_test(test_nothing_to_tell),
-        cmocka_unit_test(test_actions),          cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_detect),
+        cmocka_unit_test(test_nearest),
+        cmocka_unit_test(test_gathered),
+        cmocka_unit_test(test_nothing_to_gather),
+        cmocka_unit_test(test_damaged_percepts),
+        cmocka_unit_test(test_name),
+        cmocka_unit_test(test_checks),
+        cmocka_unit_test(test_ranges),
+        cmocka_unit_test(test_learning),
+        cmocka_unit_test(test_nothing_to_tell),
+        cmocka_unit_test(test_nothing_parts),
+        cmocka_unit_test(test_actions),
+        cmocka_unit_test(test_noise),
         cmocka_unit_test(test_short_runs),
+        cmocka_unit_test(test_weigh),
+        cmocka_unit_test(test_weigh_refuses),
+        cmocka_unit_test(test_weigh_knows_no_plans),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,6 +69,27 @@ def test_the_export_acts_like_the_agent(domain, acts_of_export):
     assert 0 < sum(acts) < len(acts)
 
 
+def test_the_bag_that_has_most_is_weighed(domain):
+    """Blurred, a quarter of a thing is not enough of its bag, but more than of any other."""
+    agent, random = taught(domain), np.random.default_rng(4)
+    (split,) = agent.splits
+    for i in range(40):
+        percept = scene(domain, i % 4, 3, random)
+        percept[percept == 10] = 7 if random.integers(2) else 10
+        found = domain.nearest(percept, split.feature)
+        score = sum(max(0.0, 16 - distance**2) for _, distance in found)
+        ratio = score / split.feature["needed"]
+        class_id, action = agent.weigh(percept)
+        assert class_id == (ratio > 0.6)
+        assert action == agent.policy[class_id]
+
+
+def test_only_bags_are_weighed():
+    agent = rlvc.Agent(rlvc.Bits(8), 2)
+    with pytest.raises(errors.ConfigError, match="not of bags"):
+        agent.weigh(np.zeros(8, np.uint8))
+
+
 def test_empty_percepts_have_nothing_near(domain):
     feature = taught(domain).splits[0].feature
     with pytest.raises(errors.PerceptError, match="no vectors"):

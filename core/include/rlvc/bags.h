@@ -7,6 +7,7 @@
 #ifndef RLVC_BAGS_H
 #define RLVC_BAGS_H
 
+#include "rlvc/agent.h"
 #include "rlvc/descriptors.h"
 
 #ifdef __cplusplus
@@ -69,6 +70,25 @@ RLVC_API float rlvc_bags_needed(const void *feature);
 RLVC_API rlvc_status rlvc_bags_nearest(const rlvc_bags *bags, const void *percept,
                                        const void *feature, uint32_t which, uint32_t *point,
                                        float *squared);
+
+/* The class of a percept by the weight of evidence, and its greedy action: as rlvc_predict, for
+ * places that differ from those of learning. Before clutter, partly covered, or from another side a
+ * thing may show too little of its bag, and then a path that asks for enough of it goes astray.
+ * Here each class weighs as the product, over the bags of which its percepts have enough, of the
+ * score in parts of what is needed: of the last at most 4, of those before at most 1. A class whose
+ * percepts have not enough of the last bag of their path weighs 0.6 of that. The heaviest is the
+ * answer, of equals the first. Where enough of one thing's bag is to be seen, and not 0.6 of any
+ * other's, that is the class that rlvc_predict finds. O(classes K P D); changes nothing but what is
+ * written to.
+ * @param bags    of the domain of the agent, an agent of classes
+ * @param feature room for a feature, aligned to 4; what is left there means nothing
+ * @param weight  [classes of the agent]: how much each weighs, [0, 4]
+ * @param class_id, action each optional
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_PERCEPT: a count above P, or a number out of range, and
+ *         nothing is written; RLVC_E_MISMATCH: a planner. */
+RLVC_API rlvc_status rlvc_bags_weigh(const rlvc_bags *bags, const rlvc_agent *agent,
+                                     const void *percept, void *feature, float *weight,
+                                     uint32_t *class_id, uint32_t *action);
 
 #ifdef __cplusplus
 }

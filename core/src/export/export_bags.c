@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A policy on bags of vectors as C. The functions are the text of domains/gather.c and nearest.c:
+/* A policy on bags of vectors as C. The functions are the text of domains/bag.c and nearest.c:
  * the vectors of a bag score in the order of its record, until it is enough. */
 #include "rlvc/float_rules.h"
 

@@ -719,6 +719,9 @@ CORE: Functions = {
     "rlvc_bags_nearest": (c.c_int, [
         c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32, c.c_void_p, c.c_void_p,
     ]),
+    "rlvc_bags_weigh": (c.c_int, [
+        c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p,
+    ]),
     "rlvc_bits_domain": (c.c_int, [c.c_uint32, c.c_void_p]),
     "rlvc_chi2_survival": (c.c_int, [c.c_float, c.c_uint32, c.c_void_p, c.c_void_p]),
     "rlvc_chi2_critical": (c.c_int, [c.c_float, c.c_uint32, c.c_void_p]),

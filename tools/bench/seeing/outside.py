@@ -14,7 +14,8 @@ noise 3 and light +-5 %, eight pictures a pose, 4,500 interactions at random. Th
 optimal is of pictures that were not learnt from: at the poses seen, at +-10 (held out), before six other
 photographs (clutter), with 10 or 20 % of the picture covered by one colour, at 0.8 to 1.25 times the
 size, and of narrow at +-30. One action everywhere is optimal in 64 % of the cells. Rules: vectors (a feature is
-one vector, 30 points, sigma 6) and bags (of 16 vectors, 120 points, sigma 2.5). Needs scikit-image and
+one vector, 30 points, sigma 6) and bags (of 16 vectors, 120 points, sigma 2.5). Decisions are those of
+Agent.predict, and of bags also of Agent.weigh. Needs scikit-image and
 scikit-learn."""
 
 import argparse
@@ -154,14 +155,14 @@ def learn(maze, domain, percepts, random):
     return agent, seconds
 
 
-def optimal_share(maze, agent, percepts):
-    right = [maze.optimal[cell, agent.predict(percept).action]
+def optimal_share(maze, decide, percepts):
+    right = [maze.optimal[cell, decide(percept).action]
              for cell, seen in enumerate(percepts) for percept in seen]
     return float(np.mean(right))
 
 
 def run(rule, seed, sets):
-    """{(set, condition): share of optimal decisions}, {set: (classes, seconds)}"""
+    """{(set, condition, decision): share of optimal decisions}, {set: (classes, seconds)}"""
     random = np.random.default_rng(seed)
     maze = Maze()
     shuffled = random.permutation(objects.objects((*SEEN, *HELD_OUT, *BEYOND)))
@@ -174,7 +175,9 @@ def run(rule, seed, sets):
         agent, seconds = learn(maze, extractor.domain(**parameters), scenes.learnt(name), random)
         sizes[name] = agent.classes, seconds
         for condition, percepts in scenes.tested(name).items():
-            shares[name, condition] = optimal_share(maze, agent, percepts)
+            shares[name, condition, "predict"] = optimal_share(maze, agent.predict, percepts)
+            if isinstance(agent.domain, rlvc.Bags):
+                shares[name, condition, "weigh"] = optimal_share(maze, agent.weigh, percepts)
     return shares, sizes
 
 
@@ -198,8 +201,8 @@ def main():
                   f"{seconds.mean():.1f} s of learning")
         for key in results[0][0]:
             shares = 100 * np.array([shares[key] for shares, _ in results])
-            print(f"{rule:8} {key[0]:8} {key[1]:17} {shares.mean():5.1f} %  least {shares.min():5.1f} %",
-                  flush=True)
+            print(f"{rule:8} {key[0]:8} {key[1]:17} {key[2]:8} {shares.mean():5.1f} %  "
+                  f"least {shares.min():5.1f} %", flush=True)
 
 
 if __name__ == "__main__":
