@@ -46,9 +46,21 @@ static rlvc_status weigh_splits(const rlvc_layout *layout, const rlvc_agent *age
     return status == RLVC_E_RANGE ? RLVC_OK : status; /* none is left */
 }
 
+/* Takes off the marks, too. */
+static uint32_t heaviest(float *weight, uint32_t classes) {
+    uint32_t best = 0;
+    for (uint32_t c = 0; c < classes; c++) {
+        if (weight[c] < 0.0f)
+            weight[c] *= -LEFT;
+        if (weight[c] > weight[best])
+            best = c;
+    }
+    return best;
+}
+
 rlvc_status rlvc_bags_weigh(const rlvc_bags *bags, const rlvc_agent *agent, const void *percept,
                             void *feature, float *weight, uint32_t *class_id, uint32_t *action) {
-    uint32_t classes = 1, best = 0;
+    uint32_t classes = 1;
     if (bags == NULL || agent == NULL || percept == NULL || feature == NULL || weight == NULL)
         return RLVC_E_NULL;
     if (rlvc_vectors_check_percept(&bags->vectors, percept) != 0)
@@ -57,12 +69,7 @@ rlvc_status rlvc_bags_weigh(const rlvc_bags *bags, const rlvc_agent *agent, cons
     const rlvc_status status = weigh_splits(&layout, agent, percept, feature, weight, &classes);
     if (status != RLVC_OK)
         return status;
-    for (uint32_t c = 0; c < classes; c++) {
-        if (weight[c] < 0.0f)
-            weight[c] *= -LEFT;
-        if (weight[c] > weight[best])
-            best = c;
-    }
+    const uint32_t best = heaviest(weight, classes);
     if (class_id != NULL)
         *class_id = best;
     return action == NULL ? RLVC_OK : rlvc_value(agent, best, NULL, action);
