@@ -68,10 +68,28 @@ class Frames:
             raise PictureError(f"{named(source)}: neither a folder of pictures nor a video")
         self._numbers = {Path(name).stem: i for i, name in enumerate(self.names)}
         self._numbers |= {name: i for i, name in enumerate(self.names)}
+        self._in_names = _numbers_in(self.names)
 
     def number(self, word: Any) -> int | None:
-        """Return which frame of a folder a file name is, with its ending or without; None: none."""
-        return self._numbers.get(re.split(r"[/\\]", str(word))[-1])
+        """Find the frame that an entry of a log means.
+
+        Parameters
+        ----------
+        word : str or number
+            A file of the folder, with its ending or without. Or a number: that in the names if each
+            is the same text and a number, such as frame1.png, frame2.png; else from 0.
+
+        Returns
+        -------
+        int or None
+            The frame's place in the order, from 0; None: there is no such frame.
+        """
+        found = self._numbers.get(re.split(r"[/\\]", str(word))[-1])
+        if found is not None or isinstance(word, str) or not float(word).is_integer():
+            return found
+        if self._in_names:
+            return self._in_names.get(int(word))
+        return int(word) if word >= 0 and not (self.names and word >= len(self.names)) else None
 
     def pictures(self, wanted: Collection[int] | None = None) -> Iterator[tuple[int, Picture]]:
         """Read frames in their order.
@@ -123,13 +141,22 @@ class Frames:
             video.release()
 
 
+def _numbers_in(names: list[str]) -> dict[int, int]:
+    """The place of each number in the names if these are one text and a number; else none."""
+    parts = [re.fullmatch(r"(.*?)(\d{1,15})", Path(name).stem, re.ASCII) for name in names]
+    texts = {part[1] if part else None for part in parts}
+    places = {int(part[2]): i for i, part in enumerate(parts) if part}
+    return places if len(texts) == 1 and len(places) == len(names) else {}
+
+
 def _is_picture(path: Path) -> bool:
     return path.suffix.lower() in _SUFFIXES and not path.name.startswith(".")
 
 
-def _in_order(name: str) -> list[tuple[int, str]]:
-    """A key that sorts numbers in a name by their values."""
-    return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", name)]
+def _in_order(name: str) -> tuple[list[tuple[int, str]], str]:
+    """A key that sorts numbers in a name by their values; of 1 and 01 the text decides."""
+    parts = re.split(r"(\d+)", name)
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in parts], name
 
 
 # ---------------------------------------------------------------------- the log beside
@@ -154,6 +181,8 @@ def find_log(source: str | Path) -> Path:
         There is none, or there are several.
     """
     source = Path(source)
+    if _is_picture(source):
+        raise LogError(f"{named(source)}: one picture: give the folder of the frames, or a video")
     beside = source.with_suffix(".csv") if not source.is_dir() else Path(f"{source.resolve()}.csv")
     inside = sorted(source.glob("*.csv")) if source.is_dir() else []
     if len(inside) > 1:
@@ -161,7 +190,9 @@ def find_log(source: str | Path) -> Path:
         raise LogError(f"{source}: has several logs: {listed}: pass one as log")
     found = [path for path in (*inside, beside) if path.is_file()]
     if not found:
-        raise LogError(f"{named(source)}: there is no log: neither in it nor as {beside.name} beside")
+        where = f"as {beside.name} beside"
+        where = f"neither in it nor {where}" if source.is_dir() else f"not {where}"
+        raise LogError(f"{named(source)}: there is no log: {where}: pass one as log")
     return found[0]
 
 
@@ -169,7 +200,8 @@ def _column(table: Table, column: str | None) -> str | None:
     """The column that names the frames; None: there is none, and row i is of frame i."""
     if column is not None:
         if column not in table.columns:
-            raise LogError(f"{table.where}: {table.head}: there is no column {column}")
+            listed = ", ".join(table.columns)
+            raise LogError(f"{table.where}: {table.head}: no column {column} (present: {listed})")
         return column
     found = [name for name in table.columns if name.strip().lower() in _NAMES]
     if len(found) > 1:
@@ -192,15 +224,16 @@ def _numbered(table: Table, column: str | None, frames: Frames) -> str:
         table.columns["frame"] = np.arange(rows, dtype=float)
         table.notes.append("frame: row i is of frame i")
         return "frame"
+    if table.columns[found].ndim > 1:
+        raise table.wrong(0, found, "several numbers: write the name of a file, with its ending")
     numbers = np.full(rows, np.nan)
     for i, word in enumerate(table.columns[found]):
         if word is None or word == "" or word != word:  # NaN: the row has no frame
             continue
         number = frames.number(word)
-        if number is None and not isinstance(word, str) and float(word).is_integer() and word >= 0:
-            number = int(word)  # from 0
-        if number is None or (frames.names and number >= len(frames.names)):
-            raise table.wrong(i, found, f"{word} is no frame of {frames.source}")
+        if number is None:
+            name = word if isinstance(word, str) else f"{word:.15g}"
+            raise table.wrong(i, found, f"{name} is no frame of {frames.source}")
         numbers[i] = number
     table.columns[found] = numbers
     return found
@@ -249,7 +282,7 @@ def learn_from_frames(
     eye : Eye or None
         None: one whose metric is fitted to up to 64 of the frames.
     column : str or None
-        The column of the frame: the name of a file of the folder, or a number from 0. None: that
+        The column of the frame, of which :meth:`Frames.number` says how it may be named. None: that
         which is named frame, picture, image, photo or file; without such a column row i is of
         frame i.
     header, roles, bins

@@ -80,6 +80,23 @@ def test_how_frames_are_named(folder, views, how):
     assert sorts(frames.learn_from_frames(folder, discount=0.0, **options), views)
 
 
+def test_a_number_is_that_in_the_names(tmp_path, views):
+    from rlvc import frames
+
+    def found(names, *words):
+        made = tmp_path / "-".join(names)
+        made.mkdir()
+        for name in names:
+            (made / f"{name}.png").touch()
+        return [frames.Frames(made).number(word) for word in words]
+
+    assert found(["000001", "000002", "000004"], 1.0, 4.0, 0.0, 3.0) == [0, 2, None, None]
+    assert found(["frame3", "frame10"], 3.0, 10.0, "frame10", 0.0) == [0, 1, 1, None]
+    assert found(["left", "right"], 0.0, 1.0, 2.0, -1.0, 0.5) == [0, 1, None, None, None]
+    assert found(["a1", "b2"], 0.0, 2.0) == [0, None]  # several texts
+    assert found(["1", "01"], 0.0, "01", 2.0) == [0, 0, None]  # one number twice
+
+
 def test_the_next_frame_is_in_the_next_row(tmp_path, views):
     """A walk over three things in a row, of which entering the third pays and ends it."""
     from rlvc import frames
@@ -109,7 +126,11 @@ def test_what_is_wrong_is_named(folder, tmp_path):
 
     content = (folder / "log.csv").read_text()
     told(errors.PictureError, "neither a folder of pictures nor a video", tmp_path / "none")
-    told(errors.LogError, "no column seen", folder, column="seen")
+    told(errors.LogError, r"no column seen \(present: frame, action", folder, column="seen")
+    told(errors.LogError, "frame3.ppm: one picture: give the folder", folder / "frame3.ppm")
+    (folder / "log.csv").write_text("frame,action,reward,done\n00,1,0,1\n01,1,0,1\n")
+    told(errors.LogError, "line 2: frame: several numbers: write the name of a file")
+    (folder / "log.csv").write_text(content)
     change(folder, "frame7.ppm", "frame700.ppm")
     told(errors.LogError, r"line 9: frame: frame700\.ppm is no frame of")
     (folder / "log.csv").write_text(content.replace("done", "image", 1))
@@ -175,10 +196,28 @@ def test_from_a_shell(folder, tmp_path, capsys, views):
     arguments = ["learn", "--frames", str(folder), "--discount", "0", "--save-metric", str(made)]
     assert command.main([*arguments, "--c", str(tmp_path / "sort.h"), "--quiet"]) == 0
     assert "classes after 160 interactions" in capsys.readouterr().out
-    assert "policy_act(const void *percept)" in (tmp_path / "sort.h").read_text()
+    text = (tmp_path / "sort.h").read_text()
+    assert "policy_act(const void *percept)" in text
     eye = vision.Eye(vision.Extractor(metric=vision.Metric.load(made)))
     assert sorts(frames.learn_from_frames(folder, eye=eye, discount=0.0), views)
+    kept, picture = str(tmp_path / "sort.rlvc"), str(folder / "frame3.ppm")
+    assert command.main([*arguments, "--save", kept, "--quiet"]) == 0
+    learnt = capsys.readouterr().out
+    assert command.main(["show", kept]) == 0
+    assert capsys.readouterr().out == learnt
+    assert command.main(["explain", kept, picture]) == 0
+    assert "-> action 1, value 1" in capsys.readouterr().out
+    assert command.main(["explain", kept, "5"]) == 1
+    assert "rlvc: 5: " in capsys.readouterr().err
+    assert command.main(["export", kept, "--c", "-"]) == 0
+    assert capsys.readouterr().out == text
+    pytest.importorskip("matplotlib")
+    drawn = tmp_path / "path.svg"
+    assert command.main(["plot", kept, "path", str(drawn), "--observation", picture]) == 0
+    assert drawn.exists()
     for wrong in (
+        ["learn", "--frames", str(folder), "--seeds", "2"],
+        ["learn", "--frames", str(folder), "--columns", "frame"],
         ["learn", "--frames", str(tmp_path)],
         ["learn", "--frames", str(folder), "--log", "a.csv", "b.csv"],
         ["learn", "--frames", str(folder), "FrozenLake-v1"],

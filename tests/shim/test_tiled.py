@@ -117,8 +117,9 @@ def test_an_eye_acts_as_its_copies_and_its_c(learnt, tmp_path):
     expected = [run.predict(picture) for picture in seen]
     assert len(set(expected)) > 1
     run.save(tmp_path / "run.rlvc")
-    loaded, copied = rlvc.load(tmp_path / "run.rlvc", encoder=eye), pickle.loads(pickle.dumps(run))
+    loaded, copied = rlvc.load(tmp_path / "run.rlvc"), pickle.loads(pickle.dumps(run))
     assert [loaded.predict(picture) for picture in seen] == expected
+    assert rlvc.load(tmp_path / "run.rlvc", encoder=eye).encoder is eye
     assert [copied.predict(picture) for picture in seen[:100]] == expected[:100]
     act = compiled(run.export_c(name="kept"), "kept", tmp_path)
     percepts = [np.frombuffer(eye.encode(picture), np.uint8).copy() for picture in seen]

@@ -21,6 +21,7 @@ from ..agent.planned_policy import read_file as read_policy
 from ..agent.snapshot import read_file
 from ..errors import ConfigError, EnvError, Error, RunError
 from ..fleet import command as fleet
+from ..learning.encode import Encoder
 from ..learning.learn import learn
 from ..learning.run import Run
 from ..learning.store import is_run, load
@@ -29,6 +30,7 @@ from ..words import explain
 from .parser import config_fields
 
 _LOG_OPTIONS = ("columns", "header", "roles", "bins")
+_NOT_OF_FRAMES = ("columns", "history", "method", "names", "run", "seeds", "thresholds")
 INTERRUPTED = 130  # exit status: 128 and the number of the signal
 
 
@@ -90,6 +92,9 @@ def _sort_out(arguments: argparse.Namespace) -> None:
     elif named:
         arguments.env = named[0]
     if arguments.frames is not None and arguments.env is None:
+        for name in _NOT_OF_FRAMES:
+            if getattr(arguments, name) is not None:
+                raise ConfigError(f"--{name}: does not go with --frames")
         return
     if arguments.save_metric is not None or arguments.frame_column is not None:
         raise Error("learn: --save-metric and --frame-column go with --frames")
@@ -245,7 +250,13 @@ def evaluate_command(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _observation(text: str) -> Any:
+def _observation(text: str, source: Any) -> Any:
+    """What was typed: the file of a picture if the run has an eye, else JSON."""
+    encoder = getattr(source, "encoder", None)
+    if encoder is not None and not isinstance(encoder, Encoder):
+        from .. import objects
+
+        return objects.read(text)
     try:
         return json.loads(text)
     except ValueError as error:
@@ -254,7 +265,8 @@ def _observation(text: str) -> Any:
 
 def explain_command(arguments: argparse.Namespace) -> int:
     """Print the path of an observation."""
-    print(load(arguments.file).explain(_observation(arguments.observation)))
+    run = load(arguments.file)
+    print(run.explain(_observation(arguments.observation, run)))
     return 0
 
 
@@ -277,7 +289,7 @@ def export_command(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _drawn(arguments: argparse.Namespace) -> dict[str, Any]:
+def _drawn(arguments: argparse.Namespace, source: Any) -> dict[str, Any]:
     """What a figure is asked for beside the run."""
     given = {name: getattr(arguments, name) for name in ("components", "observation", "env")}
     chosen = {name: value for name, value in given.items() if value is not None}
@@ -286,7 +298,7 @@ def _drawn(arguments: argparse.Namespace) -> dict[str, Any]:
         if name not in takes.get(arguments.kind, ()):
             raise ConfigError(f"--{name}: {arguments.kind} does not take it")
     if "observation" in chosen:
-        chosen["observation"] = _observation(chosen["observation"])
+        chosen["observation"] = _observation(chosen["observation"], source)
     if "env" in chosen:
         chosen["env"] = _environment(chosen["env"], arguments.env_arg)
     return chosen
@@ -296,10 +308,9 @@ def plot_command(arguments: argparse.Namespace) -> int:
     """Draw a run or a report."""
     from .. import plot
 
-    asked = _drawn(arguments)
     try:
         source = load(arguments.run) if is_run(arguments.run) else arguments.run
-        plot.KINDS[arguments.kind](source, arguments.file, **asked)
+        plot.KINDS[arguments.kind](source, arguments.file, **_drawn(arguments, source))
     except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         if isinstance(error, Error):
             raise

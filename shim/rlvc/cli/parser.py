@@ -234,7 +234,11 @@ def _add_of_a_run(commands: Any) -> None:
     add = command(
         "explain", "say why a run acts so", "Prints the path of an observation through the tree."
     )
-    add("observation", metavar="JSON", help="such as 5, '[0.1, -0.2]' or '{\"mode\": \"heat\"}'")
+    add(
+        "observation",
+        metavar="JSON",
+        help="such as 5, '[0.1, -0.2]' or '{\"mode\": \"heat\"}'; of a run on pictures the file of one",
+    )
     command(
         "importances", "measure what matters", "Prints how often the action depends on each number."
     )

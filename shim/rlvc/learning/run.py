@@ -426,7 +426,7 @@ class Run:
         Notes
         -----
         The learner, the encoder, the actions and the history are in the file, bit for bit; of an
-        encoder by the caller only that there is one. A failure leaves the old file.
+        encoder of the caller's own class only that there is one. A failure leaves the old file.
         """
         from .store import write
 

@@ -4,13 +4,14 @@
 The file (:mod:`rlvc.agent.kept`) holds the library's snapshot of the learner and the percepts that were
 seen. Its JSON has ``bits``, ``descriptors`` and ``thresholds``, one of which holds the parameters of the
 domain; ``config`` of an agent, ``planner``, the config of a planner, or ``nodes`` of a policy; and the
-encoder, the actions and the history.
+encoder, which may be the ``eye`` of pictures, the actions and the history.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +63,7 @@ def packed(run: Run) -> bytes:
         **described(learner.domain),
         "encoder": run.encoder.to_json() if type(run.encoder) is Encoder else None,
         "own_encoder": run.encoder is not None and type(run.encoder) is not Encoder,
+        "eye": _eye_of(run.encoder),
         "spelled": run.actions.to_dict(),
         "compaction": run.compaction if run.small is not None else None,
         "seed": run.seed,
@@ -74,6 +76,13 @@ def packed(run: Run) -> bytes:
         "bytes": len(snapshot),
     }
     return pack("run", head, b"".join([snapshot, *run.seen.percepts]))
+
+
+def _eye_of(encoder: Any) -> dict[str, Any] | None:
+    """What an encoder of pictures is made of; None: it is another one."""
+    seeing = sys.modules.get("rlvc.vision.eye")  # where the vision module is missing there is no eye
+    known: bool = seeing is not None and type(encoder) is seeing.Eye
+    return encoder.to_dict() if known else None
 
 
 def _snapshot(learner: Agent | Planner) -> bytes:
@@ -97,7 +106,8 @@ def load(file: str | Path, encoder: Any = None, domain: Domain | None = None) ->
     ----------
     file : str or Path
     encoder : object or None
-        The encoder of the run, if it was not an :class:`rlvc.Encoder`.
+        The encoder of the run, if it was neither an :class:`rlvc.Encoder` nor an
+        :class:`rlvc.vision.Eye`.
     domain : Domain or None
         The domain, if it was a user-defined one.
 
@@ -111,6 +121,8 @@ def load(file: str | Path, encoder: Any = None, domain: Domain | None = None) ->
         The file cannot be read.
     SnapshotError
         It is not such a file, is corrupt, or needs the encoder or the domain.
+    ImportError
+        Its encoder is an eye, and the vision module is missing.
     """
     content = read_content(file)
     try:
@@ -124,20 +136,17 @@ def unpacked(content: bytes, encoder: Any = None, domain: Domain | None = None) 
     head, rest = unpack("run", content)
     try:
         return _made(head, rest, encoder, domain)
-    except SnapshotError:
+    except (ImportError, SnapshotError):
         raise
     except Exception as error:  # members of any kind
         raise SnapshotError(f"damaged: the header is not valid ({error})") from error
 
 
 def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None) -> Run:
-    if head["own_encoder"] and encoder is None:
-        raise SnapshotError("the run has an encoder of its own: pass it as encoder")
     domain = domain_of(head) or domain
     if domain is None:
         raise SnapshotError("the run has a user-defined domain: pass it as domain")
-    if head["encoder"] is not None:
-        encoder = Encoder.from_json(head["encoder"])
+    made = _encoder(head, encoder is not None)
     snapshot, kept = rest[: head["bytes"]], rest[head["bytes"] :]
     learner: Agent | Planner | PlannedPolicy
     if "config" in head:
@@ -152,9 +161,9 @@ def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None
     known = learner.actions if isinstance(learner, PlannedPolicy) else learner.config.actions
     if actions.count != known:
         raise SnapshotError(f"damaged: {actions.count} actions, and the learner has {known}")
-    if type(encoder) is Encoder and encoder.domain.percept_bytes != domain.percept_bytes:
+    if made is not None and made.domain.percept_bytes != domain.percept_bytes:
         raise SnapshotError("damaged: the encoder makes percepts of another size")
-    run = Run(learner, encoder, whole("seed", head["seed"], *_WHOLE), actions)
+    run = Run(learner, encoder if made is None else made, whole("seed", head["seed"], *_WHOLE), actions)
     run.interrupted = flag("interrupted", head["interrupted"])
     run.masked = flag("masked", head.get("masked", False))  # older files do not say it
     run.history = [_record(record) for record in head["history"]]
@@ -164,6 +173,19 @@ def _made(head: dict[str, Any], rest: bytes, encoder: Any, domain: Domain | None
     if head["compaction"] is not None:
         run.compact(**head["compaction"])
     return run
+
+
+def _encoder(head: dict[str, Any], given: bool) -> Any:
+    """The encoder that is in the file; None: there is none, or the caller gives it."""
+    if head["encoder"] is not None:
+        return Encoder.from_json(head["encoder"])
+    if given or not head["own_encoder"]:
+        return None
+    if head.get("eye") is None:  # nor have older files one
+        raise SnapshotError("the run has an encoder of its own: pass it as encoder")
+    from ..vision.eye import Eye
+
+    return Eye.from_dict(head["eye"])
 
 
 def _record(fields: list[Any]) -> Record:

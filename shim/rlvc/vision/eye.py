@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import numpy as np
 
+from ..checks import whole
+from .config import VisionConfig
 from .extractor import Extractor, Sight
 from .library import Order, Picture
+from .metric import Metric
 
 
 class Eye:
@@ -38,8 +42,47 @@ class Eye:
         self.domain = extractor.domain(**parameters)
         self.names: list[str] = []
         self._order = order
-        self._cache = cache
+        self._cache = whole("cache", cache, 0, 2**63 - 1)
+        self._parameters = parameters
         self._known: dict[tuple[Any, bytes], bytes] = {}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what the eye is made of, for JSON.
+
+        Returns
+        -------
+        dict
+        """
+        metric = self.extractor.metric
+        return {
+            "config": dataclasses.asdict(self.extractor.config),
+            "metric": None if metric is None else metric.write().decode(),
+            "order": self._order,
+            "cache": self._cache,
+            "parameters": self._parameters,
+        }
+
+    @classmethod
+    def from_dict(cls, fields: dict[str, Any]) -> Eye:
+        """Make an eye of a result of :meth:`to_dict`.
+
+        Parameters
+        ----------
+        fields : dict
+
+        Returns
+        -------
+        Eye
+
+        Raises
+        ------
+        Error
+            A field is out of range, or the metric is damaged.
+        """
+        text = fields["metric"]
+        metric = None if text is None else Metric.read(text.encode())
+        extractor = Extractor(VisionConfig(**fields["config"]), metric)
+        return cls(extractor, fields["order"], fields["cache"], **fields["parameters"])
 
     def encode(self, observation: Picture) -> bytes:
         """Return the percept of a picture.
