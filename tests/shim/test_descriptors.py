@@ -115,5 +115,8 @@ def test_wrong_percepts(wrong):
     [{"points": 0}, {"dimensions": 300}, {"radius": 0.0}, {"margin": 0.5}, {"form": "int4"}],
 )
 def test_wrong_parameters(wrong):
-    with pytest.raises(errors.ConfigError):
-        rlvc.Descriptors(**{"points": 5, "dimensions": 3, "radius": 1.0, **wrong})
+    name, *_ = wrong
+    for domain in (rlvc.Descriptors, rlvc.Spatial, rlvc.Bags):
+        if name != "margin" or domain is not rlvc.Bags:
+            with pytest.raises(errors.ConfigError, match=f"{name}: .* not (in|one of) "):
+                domain(**{"points": 5, "dimensions": 3, "radius": 1.0, **wrong})

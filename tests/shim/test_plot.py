@@ -244,6 +244,15 @@ def test_pale_colours_carry_black_type():
         assert 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > 0.3
 
 
+def test_a_log_is_learnt_in_one_step():
+    """Its curve is a point, at a whole number of classes; returns while learning there are none."""
+    record = {"step": 1, "interactions": 9, "classes": 2, "mean_return": None}
+    upper, lower = plot.learning_curve({"version": 1, "history": [record]}).axes
+    assert upper.lines[0].get_marker() == "o"
+    assert all(float(tick).is_integer() for tick in upper.get_yticks())
+    assert [text.get_text() for text in lower.texts] == ["no return is known"]
+
+
 def test_several_runs(made):
     figure = plot.learning_curve({"version": 1, "runs": [made, made]})
     assert "2 runs" in figure.axes[0].get_title(loc="left")

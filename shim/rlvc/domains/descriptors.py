@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from .. import _native
 from ..checks import array, one_of, real, whole
-from ..errors import PerceptError
+from ..errors import ConfigError, PerceptError
 from .builtin import BuiltinDomain
 from .domain import Percept
 
@@ -69,6 +69,10 @@ class Descriptors(BuiltinDomain):
         candidates = whole("candidates", candidates, 1, _native.DESCRIPTORS_CANDIDATES_MAX)
         draws = whole("draws", draws, 1, _native.DESCRIPTORS_DRAWS_MAX)
         radius, margin = real("radius", radius), real("margin", margin)
+        if not 0.0 < radius <= 1e15:
+            raise ConfigError(f"radius: {radius} is not in (0, 1e15]")
+        if not 1.0 <= margin <= 16.0:
+            raise ConfigError(f"margin: {margin} is not in [1, 16]")
         one_of("form", form, ("float", "int8"))
         self.parameters = (points, dimensions, radius, form, candidates, draws, margin)
         self._build(

@@ -75,8 +75,9 @@ class Environment:
                 f"{space!s:.80}: {hint}"
             )
         if isinstance(encoder, Encoder) and not encoder.fits(self.observation_space):
+            count = len(encoder.elements)
             raise ConfigError(
-                f"run: its observations, {len(encoder.elements)} numbers, are not those of "
+                f"run: its observations, {count} number{'s' * (count > 1)}, are not those of "
                 f"{self.observation_space!s:.80}: {hint}"
             )
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from ..errors import RunError
 from .drawing import BLUE, GREY, ORANGE, Source, axes_of, explained, need, reports, save, tidy
@@ -30,7 +31,12 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
         points = [record["interactions"] for record in run["history"]]
         thin = 2.0 if len(runs) == 1 else 0.9
         upper.plot(
-            points, [record["classes"] for record in run["history"]], color=BLUE, linewidth=thin
+            points,
+            [record["classes"] for record in run["history"]],
+            color=BLUE,
+            linewidth=thin,
+            marker="o" if len(points) == 1 else None,  # of a log, which is learnt in one step
+            markersize=3.5,
         )
         known = [record for record in run["history"] if record[second] is not None]
         lower.plot(
@@ -58,6 +64,10 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
             color=GREY,
         )
         lower.set_ylim(top=1.15 * runs[0]["cells"])
+    if not any(len(line.get_xdata()) for line in lower.lines):
+        lower.text(0.5, 0.5, "no return is known", ha="center", transform=lower.transAxes)
+        lower.set_yticks([])
+    upper.yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     tidy(upper)
     tidy(lower)
     title = "Learning" if len(runs) == 1 else f"Learning: {len(runs)} runs"
@@ -118,6 +128,7 @@ def splits(source: Source, file: str | Path | None = None, ax: Any = None) -> Fi
     axes.scatter(xs, ys, s=sizes, color=BLUE, alpha=0.75, edgecolors="white", linewidths=0.5)
     axes.set_yticks(range(len(tests)), list(tests), fontsize=9)
     axes.set_ylim(len(tests) - 0.4, -0.6)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     axes.set_xlabel("learning step k (splits of one step are side by side)")
     axes.set_title(f"{len(found)} splits, by feature", fontsize=12, loc="left")
     tidy(axes, grid="y")

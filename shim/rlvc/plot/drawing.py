@@ -134,7 +134,10 @@ def need(report: dict[str, Any], *members: str) -> dict[str, Any]:
     """Return the report if it has these members."""
     for member in members:
         if member not in report:
-            raise RunError(f"the report has no {member}")
+            raise RunError(
+                f"the report has no {member}: rlvc.report.make(run, env) tells of the maze that env is, "
+                "and so does run_gridworld --json"
+            )
     return report
 
 
