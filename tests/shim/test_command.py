@@ -37,6 +37,7 @@ WRONG = [
     ["learn", "FrozenLake-v1", "--seed", "-1"], ["learn", "FrozenLake-v1", "--seed", str(2**70)],
     ["learn", "FrozenLake-v1", "--discount", "2"], ["learn", "FrozenLake-v1", "--discount", "x"],
     ["learn", "FrozenLake-v1", "--solver", "guess"], ["learn", "FrozenLake-v1", "--log", "x"],
+    ["learn", "FrozenLake-v1", "--columns", "x"], ["learn", "none.csv", "--env-arg", "a=1"],
     ["learn", "NoSuchLake-v1"], ["learn", ""], ["learn", "no_such_module:Lake-v1"], ["learn", "a b c"],
     ["learn", "--log", "none.csv"], ["learn", "--log", "none.npz"], ["learn", "--log", "/dev/null"],
     ["show", "none"], ["show", "/dev/zero"], ["export", "none"], ["export", "none", "--c", "x"],

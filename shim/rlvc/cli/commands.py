@@ -30,7 +30,14 @@ from ..words import explain
 from .parser import config_fields
 
 _LOG_OPTIONS = ("columns", "header", "roles", "bins")
-_NOT_OF_FRAMES = ("columns", "history", "method", "names", "run", "seeds", "thresholds")
+_OF_FRAMES = ("frame_column", "save_metric")
+_OF_ENV = ("env_arg", "every", "hold", "method", "run")
+# The options that would do nothing, by what is learnt from.
+_IDLE = {
+    "an environment": (*_OF_FRAMES, "actions", "columns", "header", "roles", "steps"),
+    "logs": (*_OF_FRAMES, *_OF_ENV),
+    "--frames": (*_OF_ENV, "columns", "history", "names", "seeds", "thresholds"),
+}
 INTERRUPTED = 130  # exit status: 128 and the number of the signal
 
 
@@ -92,14 +99,14 @@ def _sort_out(arguments: argparse.Namespace) -> None:
     elif named:
         arguments.env = named[0]
     if arguments.frames is not None and arguments.env is None:
-        for name in _NOT_OF_FRAMES:
-            if getattr(arguments, name) is not None:
-                raise ConfigError(f"--{name}: does not go with --frames")
-        return
-    if arguments.save_metric is not None or arguments.frame_column is not None:
-        raise Error("learn: --save-metric and --frame-column go with --frames")
-    if (arguments.env is None) == (arguments.log is None) or arguments.frames is not None:
+        source = "--frames"
+    elif (arguments.env is None) == (arguments.log is None) or arguments.frames is not None:
         raise Error("learn: give either ENV or files of logs, or --frames")
+    else:
+        source = "logs" if arguments.env is None else "an environment"
+    for name in _IDLE[source]:
+        if getattr(arguments, name) not in (None, []):
+            raise ConfigError(f"--{name.replace('_', '-')}: does not go with {source}")
 
 
 def _is_log(name: str) -> bool:
