@@ -134,9 +134,9 @@ def need(report: dict[str, Any], *members: str) -> dict[str, Any]:
     """Return the report if it has these members."""
     for member in members:
         if member not in report:
+            maker = "run_gridworld binary" if member == "history" else "run_gridworld"
             raise RunError(
-                f"the report has no {member}: rlvc.report.make(run, env) tells of the maze that env is, "
-                "and so does run_gridworld --json"
+                f"the report has no {member}: one by rlvc.report.make(run, env) or {maker} --json has"
             )
     return report
 
