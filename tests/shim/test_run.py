@@ -271,3 +271,18 @@ def test_names_are_put_in_once():
     run = rlvc.learn(Guess("number"), 3000, seed=1, discount=0.0)
     assert "number bit" in run.text("dot")
     assert "number number" not in run.text("dot")
+
+
+def test_interrupted_before_the_first_learning_step():
+    class Stopped(Line):
+        def step(self, action):
+            self.steps = getattr(self, "steps", 0) + 1
+            if self.steps == 50:
+                raise KeyboardInterrupt
+            return super().step(action)
+
+    run = rlvc.learn(Stopped(), 1000, seed=1)
+    assert run.interrupted
+    assert run.warning.startswith("nothing was learnt: the first learning step was not reached")
+    assert run.text().endswith(f"{run.warning}\n")
+    assert rlvc.learn(Line(), 1000, seed=1, run=run).warning == ""
