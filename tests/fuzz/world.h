@@ -5,6 +5,7 @@
 #define RLVC_TESTS_WORLD_H
 
 #include "must.h"
+#include "rlvc/agent.h"
 #include "rlvc/bags.h"
 #include "rlvc/bits.h"
 #include "rlvc/spatial.h"

@@ -483,6 +483,15 @@ rlvc_status rlvc_split_search_step(rlvc_split_cursor *search, const rlvc_split_i
     return RLVC_OK;
 }
 
+void rlvc_split_search_sort(rlvc_split_cursor *search, const rlvc_split_input *input,
+                            const uint32_t *first) {
+    rlvc_split_search_begin(search, input, first);
+    while (search->phase <= MARK) {
+        uint32_t used; /* no callback is called, so that none fails */
+        (void)advance(search, input, RLVC_BUDGET_UNBOUNDED, &used);
+    }
+}
+
 rlvc_status rlvc_split_search_single(rlvc_split_cursor *search, const rlvc_split_input *input) {
     uint32_t used = 0;
     if (search->phase == SORT && !search->inner.sort.done) {

@@ -148,6 +148,11 @@ rlvc_status rlvc_split_input_detect(const rlvc_split_input *input, const rlvc_sa
 void rlvc_split_search_begin(rlvc_split_cursor *search, const rlvc_split_input *input,
                              const uint32_t *first);
 
+/* Brings the samples of a class into the order in which a search leaves them, and nothing else. The
+ * cursor is lost. `first` is as above. About 16 units a sample. */
+void rlvc_split_search_sort(rlvc_split_cursor *search, const rlvc_split_input *input,
+                            const uint32_t *first);
+
 /* Works for one budget; *used becomes the work, at most budget (>= RLVC_BUDGET_MIN): a unit for
  * each sample marked or detected (with up to 64 features; without detect(), for each feature of
  * each sample), what sorting and the scan of each column are charged, one for each feature of a

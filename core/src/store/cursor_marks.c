@@ -225,6 +225,19 @@ static rlvc_status redo(rlvc_agent *agent, uint8_t phase, const rlvc_cursor_mark
     return status;
 }
 
+/* Sorts what GROUP has put in order of time, class by class as far as the step had searched them:
+ * INFLUENCE hands the samples of all classes to candidates(), which may go by their order. Those of
+ * bits do not. */
+static void redo_order(rlvc_agent *agent) {
+    rlvc_learner *learner = &agent->learner;
+    rlvc_target_input criterion = rlvc_learner_target_input(agent, agent->config.criterion);
+    rlvc_split_input input = rlvc_learner_split_input(agent, &criterion);
+    const uint32_t searched = learner->phase == RLVC_PHASE_SEARCH ? learner->at : learner->classes;
+    for (uint32_t c = 0; c < searched; c++)
+        rlvc_split_search_sort(&learner->work.split, &input,
+                               agent->values.begin.sample + rlvc_values_pair(&agent->values, c, 0));
+}
+
 /* The features that are influenced, anew. `step` and the classes, which tell the level and the
  * strata, are as they were. */
 static rlvc_status redo_influence(rlvc_agent *agent) {
@@ -242,6 +255,8 @@ static rlvc_status redo_search(rlvc_agent *agent, const rlvc_cursor_mark *mark) 
     uint8_t searching = learner->searching;
     rlvc_status status = RLVC_OK;
     (void)redo(agent, RLVC_PHASE_GROUP, NULL);
+    if (RLVC_HAS_OTHER_DOMAINS)
+        redo_order(agent);
     if (learner->phase == RLVC_PHASE_SUCCESSORS)
         status = redo_influence(agent);
     if (status == RLVC_OK && searching) {
