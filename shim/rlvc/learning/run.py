@@ -181,7 +181,7 @@ class Run:
             return _UNSOLVED[self.learner.statistics.solution]
         if self.learner.classes > 1:
             return ""
-        if self.learner.statistics.step == 0:
+        if self.interrupted and self.learner.statistics.step == 0:
             return "nothing was learnt: the first learning step was not reached: give a smaller every"
         return "one class: no difference in rewards or in what follows was found"
 
