@@ -189,6 +189,25 @@ def test_a_video(tmp_path, views):
         frames.learn_from_frames(tmp_path / "seen.avi")
 
 
+def test_a_damaged_eye_is_refused(folder):
+    from rlvc import frames
+    from rlvc.agent.kept import pack, unpack
+    from rlvc.learning import store
+
+    head, body = unpack("run", store.packed(frames.learn_from_frames(folder, discount=0.0)))
+    eye = head["eye"]
+    assert store.unpacked(pack("run", head, body)).encoder.to_dict() == eye
+    for wrong in (
+        3, [], {}, eye | {"metric": "{}"}, eye | {"metric": 3}, eye | {"metric": None}, eye | {"order": "x"},
+        eye | {"cache": -1}, eye | {"config": {"points": 5}}, eye | {"config": {"x": 1}},
+        eye | {"parameters": {"radius": -1.0}}, eye | {"parameters": 3},
+    ):  # fmt: skip
+        with pytest.raises(errors.SnapshotError, match="damaged: "):
+            store.unpacked(pack("run", head | {"eye": wrong}, body))
+    with pytest.raises(errors.SnapshotError, match="pass it as encoder"):
+        store.unpacked(pack("run", head | {"eye": None}, body))
+
+
 def test_from_a_shell(folder, tmp_path, capsys, views):
     from rlvc import frames, vision
 

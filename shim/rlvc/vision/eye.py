@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import whole
+from ..checks import one_of, whole
+from ..errors import PictureError
 from .config import VisionConfig
 from .extractor import Extractor, Sight
 from .library import Order, Picture
@@ -33,6 +34,13 @@ class Eye:
     ----------
     extractor : Extractor
     domain : Descriptors, Spatial or Bags
+
+    Raises
+    ------
+    PictureError
+        There is no such order.
+    ConfigError
+        A parameter is out of range.
     """
 
     def __init__(
@@ -41,7 +49,7 @@ class Eye:
         self.extractor = extractor
         self.domain = extractor.domain(**parameters)
         self.names: list[str] = []
-        self._order = order
+        self._order: Order = one_of("order", order, ("rgb", "bgr"), PictureError)  # type: ignore[assignment]
         self._cache = whole("cache", cache, 0, 2**63 - 1)
         self._parameters = parameters
         self._known: dict[tuple[Any, bytes], bytes] = {}
