@@ -157,7 +157,7 @@ def importances(run: Run) -> dict[str, float]:
     encoder = run.encoder
     if not isinstance(encoder, Encoder):
         raise RunError(
-            "importances: the run has no rlvc.Encoder, which knows the observations' parts"
+            "importances: the run has no rlvc.Encoder, and only that knows an observation's parts"
         )
     if len(run.seen.percepts) < 2:
         raise RunError("importances: fewer than two percepts were seen")
