@@ -94,4 +94,14 @@ static inline void play(player *p, uint32_t interactions) {
     }
 }
 
+/* @return a planner of the small configuration in `block` after so many interactions. */
+static inline rlvc_planner *play_small(player *p, void *block, size_t most, uint32_t seed,
+                                       uint32_t interactions) {
+    rlvc_config config = small_config();
+    rlvc_planner *planner = make_in(&config, block, most);
+    start(p, planner, seed);
+    play(p, interactions);
+    return planner;
+}
+
 #endif

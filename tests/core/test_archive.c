@@ -48,7 +48,8 @@ static void test_untried(void **state) {
     assert_true(rlvc_archive_flat(&archive, 10.0f));
 }
 
-/* Returns are 0.5 of what was promised and 3 less, policy 1 earns 7 more than that. */
+/* Returns are 0.5 of what was promised and 3 less, policy 1 earns 7 more than that; policy 2 was
+ * never tried. */
 static void test_scores_follow_the_formula(void **state) {
     (void)state;
     double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, sum[2] = {0.0, 0.0}, squares = 0.0;
@@ -58,6 +59,7 @@ static void test_scores_follow_the_formula(void **state) {
     make();
     (void)rlvc_archive_add(&archive, &tree, 60.0f);
     (void)rlvc_archive_add(&archive, &tree, 40.0f);
+    (void)rlvc_archive_add(&archive, &tree, 10.0f);
     for (uint32_t i = 0; i < 20; i++) {
         promised[i] = 100.0f * rlvc_rng_uniform(&rng);
         earned[i] = 0.5f * promised[i] - 3.0f + (i % 2u ? 7.0f : 0.0f) + rlvc_rng_uniform(&rng);
@@ -82,6 +84,7 @@ static void test_scores_follow_the_formula(void **state) {
                         beta * 40.0 + (sum[1] + 12.0 * common) / 22.0};
     assert_true(fabs((double)archive.trial[0].score - scores[0]) < 1e-2);
     assert_true(fabs((double)archive.trial[1].score - scores[1]) < 1e-2);
+    assert_true(fabs((double)archive.trial[2].score - beta * 10.0 - common) < 1e-2);
     assert_false(rlvc_archive_flat(&archive, 1e6f));
 }
 
@@ -102,6 +105,33 @@ static void test_beta_has_bounds(void **state) {
             assert_true(archive.beta == 1.0f);
         else
             assert_true(archive.beta < 0.1f);
+    }
+}
+
+/* Returns in another unit are trusted as much: beta stays, all else is in that unit. */
+static void test_any_unit_of_returns(void **state) {
+    (void)state;
+    const float unit[] = {1.0f, 1.0f / 1024.0f, 4096.0f};
+    float beta = 0.0f, common = 0.0f, deviation = 0.0f, score = 0.0f;
+    for (uint32_t k = 0; k < 3; k++) {
+        make();
+        (void)rlvc_archive_add(&archive, &tree, 3.0f * unit[k]);
+        for (uint32_t i = 0; i < 30; i++) {
+            float x = (float)(i % 5u);
+            note(0, x * unit[k], (0.4f * x - 1.0f + 0.2f * (float)(i % 3u)) * unit[k]);
+        }
+        rlvc_archive_score(&archive, 2.0f * unit[k]);
+        if (k == 0) {
+            beta = archive.beta;
+            common = archive.common;
+            deviation = archive.deviation;
+            score = archive.trial[0].score;
+        }
+        assert_true(beta > 0.3f && beta < 0.6f);
+        assert_true(fabsf(archive.beta - beta) < 1e-5f);
+        assert_true(fabsf(archive.common / unit[k] - common) < 1e-4f);
+        assert_true(fabsf(archive.deviation / unit[k] - deviation) < 1e-4f);
+        assert_true(fabsf(archive.trial[0].score / unit[k] - score) < 1e-4f);
     }
 }
 
@@ -238,6 +268,7 @@ int main(void) {
         cmocka_unit_test(test_episodes_for_ever),
         cmocka_unit_test(test_scores_follow_the_formula),
         cmocka_unit_test(test_beta_has_bounds),
+        cmocka_unit_test(test_any_unit_of_returns),
         cmocka_unit_test(test_the_worst_makes_room),
         cmocka_unit_test(test_old_episodes_leave),
         cmocka_unit_test(test_flat),

@@ -336,6 +336,68 @@ static void test_noise(void **state) {
     assert_int_equal(offered(2, MANY), 16);
 }
 
+/* Fisher's exact test of a thing that all of its run show, and none of the others: n of n and 0 of
+ * n in the half that bears it out. Both margins are n, so that one table of C(2 n, n) is as far
+ * from independence, and one to the other side. */
+static void test_the_bar_is_exact(void **state) {
+    (void)state;
+    double tables = 1.0;
+    open_things(RLVC_DESCRIPTORS_INT8);
+    for (uint32_t i = 0; i < PERCEPTS; i++)
+        see_thing(i, i % 4u, 0);
+    for (uint32_t n = 1; n <= 12u; n++) {
+        tables *= (double)(2u * n * (2u * n - 1u)) / (double)(n * n);
+        const double corrected = 2.0 / tables * (double)bags.vectors.candidates;
+        assert_int_equal(offered(2, 4u * n), corrected < 2.0 * 0.05 ? 16 : 0);
+    }
+}
+
+/* Percept number i of 64 vectors, four parts of a thing after 32 that are all the same: one of ten
+ * that `plain` percepts have, too. */
+static void see_behind(uint32_t i, uint32_t ten) {
+    memset(percept(i), 0, f.domain.percept_bytes);
+    set_count(i, 64);
+    for (uint32_t v = 0; v < 64u; v++)
+        set_number(vectors_of(percept(i)) + v * vector_bytes(), v < 32u ? 8u + ten : v % 4u, 10);
+}
+
+/* Of those ten all, or every second one. */
+static void see_plain(uint32_t i, uint32_t first, uint32_t step) {
+    uint32_t count = 0;
+    memset(percept(i), 0, f.domain.percept_bytes);
+    for (uint32_t ten = first; ten < 10u; ten += step)
+        set_number(vectors_of(percept(i)) + count++ * vector_bytes(), 8u + ten, 10);
+    set_count(i, count);
+}
+
+/* A bag begins anywhere among the vectors of a percept, if it does not take all: else what lies
+ * first would hide a thing that only part of the run shows. */
+static void test_things_behind(void **state) {
+    (void)state;
+    uint32_t written = 0, found = 0;
+    open_bags(64, 20, RLVC_DESCRIPTORS_INT8);
+    bags.vectors.candidates = 64;
+    assert_int_equal(rlvc_bags_domain(&bags, &f.domain), RLVC_OK);
+    for (uint32_t i = 0; i < PERCEPTS; i++) {
+        if (i >= PERCEPTS / 2u)
+            see_plain(i, i / 2u % 2u, 2);
+        else if (i / 2u % 2u)
+            see_plain(i, 0, 1);
+        else
+            see_behind(i, i / 4u);
+        f.sample[i] = (rlvc_sample){2u * i / PERCEPTS, i};
+    }
+    assert_int_equal(f.domain.candidates(&bags, &f.samples, 0, 64, records, &written), 0);
+    assert_int_equal(written, 64);
+    for (uint32_t j = 0; j < written; j++) {
+        uint8_t present[2] = {2, 2};
+        assert_int_equal(f.domain.exhibits(&bags, percept(0), bag(j), &present[0]), 0);
+        assert_int_equal(f.domain.exhibits(&bags, percept(2), bag(j), &present[1]), 0);
+        found += present[0] && !present[1];
+    }
+    assert_true(found >= 4u);
+}
+
 /* A run of one sample is gathered from if it has an even number; what bears it out is missing. */
 static void test_short_runs(void **state) {
     (void)state;
@@ -627,6 +689,8 @@ int main(void) {
         cmocka_unit_test(test_actions),
         cmocka_unit_test(test_noise),
         cmocka_unit_test(test_short_runs),
+        cmocka_unit_test(test_the_bar_is_exact),
+        cmocka_unit_test(test_things_behind),
         cmocka_unit_test(test_weigh),
         cmocka_unit_test(test_weigh_refuses),
         cmocka_unit_test(test_weigh_knows_no_plans),

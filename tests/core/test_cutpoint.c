@@ -190,6 +190,31 @@ static void test_passes_over(void **state) {
     assert_true(work < words + 16u * 70u);
 }
 
+/* A column is counted by sixteenths of whole blocks of 16 words; the last ones may be shorter, or
+ * have nothing. */
+static void test_sixteenths(void **state) {
+    (void)state;
+    const uint32_t counted[] = {255, 256, 257, 511, 512, 4096};
+    for (size_t i = 0; i < sizeof counted / sizeof counted[0]; i++) {
+        const uint32_t words = counted[i];
+        rlvc_cutpoint_cursor cursor;
+        rlvc_rng_seed(&rng, words);
+        make(NOISE, words * 64u, 1u);
+        rlvc_cutpoint_begin(&cursor, column, cuts, words * 64u, 0, -1.0f);
+        while (!cursor.done)
+            (void)rlvc_cutpoint_step(&cursor, RLVC_BUDGET_UNBOUNDED);
+        uint32_t length = 0; /* the least that sixteen of them hold all */
+        while (RLVC_CUTPOINT_CHUNKS * length < words)
+            length += 16u;
+        for (uint32_t k = 0; k < RLVC_CUTPOINT_CHUNKS; k++) {
+            uint32_t ones = 0;
+            for (uint32_t at = k * length * 64u; at < (k + 1u) * length * 64u; at++)
+                ones += at < words * 64u && bit_at(column, at);
+            assert_int_equal(cursor.chunk_present[k], ones);
+        }
+    }
+}
+
 static void test_constant_column(void **state) {
     (void)state;
     for (int present = 0; present < 2; present++)
@@ -217,13 +242,10 @@ static void test_ones(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_small_column),
-        cmocka_unit_test(test_all_distinct),
-        cmocka_unit_test(test_few_cutpoints),
-        cmocka_unit_test(test_many_samples),
-        cmocka_unit_test(test_passes_over),
-        cmocka_unit_test(test_constant_column),
-        cmocka_unit_test(test_ones),
+        cmocka_unit_test(test_every_small_column), cmocka_unit_test(test_all_distinct),
+        cmocka_unit_test(test_few_cutpoints),      cmocka_unit_test(test_many_samples),
+        cmocka_unit_test(test_passes_over),        cmocka_unit_test(test_sixteenths),
+        cmocka_unit_test(test_constant_column),    cmocka_unit_test(test_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -228,7 +228,9 @@ static void test_bent_laws_are_split_where_they_bend(void **state) {
     assert_true(model.tree[0].leaves >= 2 && model.tree[1].leaves == 2);
     assert_int_equal(model.tree[0].node[0].test, 0);
     assert_int_equal(model.tree[1].node[0].test, 2 + 1); /* action 1 */
-    assert_int_equal(model.tree[2].terms, 0);            /* the reward is constant */
+    assert_int_equal(model.tree[2].terms, 0);            /* the reward is constant: */
+    const rlvc_model_leaf nothing = {0.0f, 0.0f, 0.0f};  /* it differs by nothing */
+    assert_memory_equal(model.tree[2].leaf, &nothing, sizeof nothing);
     assert_true(worst_error(bent, 0.15f) < 0.08f);
 }
 
@@ -277,6 +279,32 @@ static void test_slices_change_nothing(void **state) {
         assert_memory_equal(nodes[i], nodes[0], sizeof nodes[0]);
         assert_memory_equal(coefficients[i], coefficients[0], sizeof coefficients[0]);
         assert_true(work[i] == work[0]);
+    }
+}
+
+/* The deviation of a component is that of the rows fitted to, however far from 0 these are. */
+static void test_deviations_are_about_the_mean(void **state) {
+    (void)state;
+    const float middle[] = {0.0f, 30.0f, -1000.0f};
+    for (uint32_t k = 0; k < 3; k++) {
+        rlvc_rng rng;
+        double sum = 0.0, squares = 0.0;
+        rlvc_rng_seed(&rng, 6);
+        make(1, 3, 500);
+        for (uint32_t i = 0; i < 600; i++) {
+            float s = middle[k] + 0.1f * rlvc_rng_uniform(&rng);
+            rlvc_experience_begin(&ring, &s);
+            rlvc_experience_append(&ring, 0, 0.0f, &s, RLVC_TRUNCATED);
+        }
+        fit_model(1, UINT32_MAX);
+        for (uint32_t i = 0; i < sample.count; i++)
+            sum += (double)*rlvc_experience_percept(&ring, sample.row[i]);
+        for (uint32_t i = 0; i < sample.count; i++) {
+            double s = (double)*rlvc_experience_percept(&ring, sample.row[i]);
+            squares += pow(s - sum / sample.count, 2.0);
+        }
+        double deviation = sqrt(squares / sample.count);
+        assert_true(fabs((double)model.basis.scale[0] - deviation) < 0.01 * deviation);
     }
 }
 
@@ -505,6 +533,7 @@ int main(void) {
         cmocka_unit_test(test_many_rows_and_many_leaves),
         cmocka_unit_test(test_few_values),
         cmocka_unit_test(test_slices_change_nothing),
+        cmocka_unit_test(test_deviations_are_about_the_mean),
         cmocka_unit_test(test_long_bases),
         cmocka_unit_test(test_endings_are_found),
         cmocka_unit_test(test_no_ending_and_nothing_else),

@@ -293,6 +293,28 @@ static void test_a_saturated_search_ends_sooner(void **state) {
     make_model(NULL);
 }
 
+/* Where all trees earn the same, whether that is a gain or a loss, each leaf has a price. */
+static void test_leaves_that_earn_nothing_go(void **state) {
+    (void)state;
+    rlvc_small_tree tree;
+    damped(&tree);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        rlvc_search_input in = searched(400, 400);
+        const float reward = (float)sign;
+        earn_always(reward);
+        for (uint32_t k = 0; k < RLVC_ROLLOUT_MODELS; k++) {
+            model[k].ending.node[0].component = RLVC_ENDING_LEAF;
+            model[k].ending.node[0].probability = 0.0f;
+        }
+        rlvc_search_begin(&search, &in, &tree);
+        while (!search.done)
+            (void)rlvc_search_step(&search, UINT32_MAX);
+        assert_true(fabsf(search.best - 60.0f * reward) < 0.01f);
+        assert_int_equal(search.tree.leaves, 1);
+        make_model(NULL);
+    }
+}
+
 static void test_slices_change_nothing(void **state) {
     (void)state;
     const uint32_t budgets[] = {UINT32_MAX, 1, 12345};
@@ -338,6 +360,7 @@ int main(void) {
         cmocka_unit_test(test_a_search_finds_a_good_tree),
         cmocka_unit_test(test_a_search_without_gain_ends),
         cmocka_unit_test(test_a_saturated_search_ends_sooner),
+        cmocka_unit_test(test_leaves_that_earn_nothing_go),
         cmocka_unit_test(test_a_search_takes_so_many_steps),
         cmocka_unit_test(test_slices_change_nothing),
         cmocka_unit_test(test_a_search_for_what_is_new),
