@@ -235,11 +235,20 @@ def test_what_a_log_is_read_with(changes, said):
         rlvc.learn_from(log(), **changes)
 
 
-@pytest.mark.parametrize("source", [None, 3, "conv\0", "http://127.0.0.1:9/x.parquet"], ids=repr)
-def test_sources_of_a_fleet(source):
+@pytest.mark.parametrize(
+    ("source", "error"),
+    [
+        (None, errors.ConfigError),
+        (3, errors.ConfigError),
+        ("conv\0", errors.LogError),
+        ("http://127.0.0.1:9/x.parquet", errors.LogError),
+    ],
+    ids=repr,
+)
+def test_sources_of_a_fleet(source, error):
     from rlvc import fleet
 
-    with pytest.raises(errors.LogError):
+    with pytest.raises(error):
         fleet.learn_from(source, workers=1)
 
 

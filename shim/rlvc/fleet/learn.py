@@ -133,7 +133,8 @@ def learn_from(
     LogError
         A file is broken. The message names it, the row group and the column.
     ConfigError
-        A field is out of range, or what it asks for does not follow from counts.
+        A field is out of range, a source is no path, address or data set, or what is asked for does
+        not follow from counts.
     CountError
         There are too many distinct rows, or the tree tests too many features.
     """
