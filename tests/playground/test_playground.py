@@ -171,14 +171,36 @@ def test_large_maze(page):
 
 
 def processor_ms(devtools):
-    """The processor time of the page's thread so far: unlike a clock, it does not see what else runs."""
+    """The processor time of the page's thread so far. It is not a clock, but it grows, too, where others share the
+    core or its cache."""
     metrics = devtools.send("Performance.getMetrics")["metrics"]
     return 1000 * next(each["value"] for each in metrics if each["name"] == "TaskDuration")
 
 
+def cost_ms(page, devtools, script):
+    """The processor time that a script takes in the page."""
+    start = processor_ms(devtools)
+    page.evaluate(script)
+    return processor_ms(devtools) - start
+
+
+# Fixed work of the same kind as drawing. It takes 16 ms on an idle workstation; what a busy one slows down, it slows
+# down alike.
+REFERENCE = """() => {
+    for (let i = 0; i < 4; i++) {
+        const box = document.body.appendChild(document.createElement("div"));
+        for (let n = 0; n < 1000; n++) box.appendChild(document.createElement("span")).textContent = "bit " + n;
+        box.getBoundingClientRect();
+        box.remove();
+    }
+}"""
+DRAW_ANEW = "page.then(({maze}) => { for (let i = 0; i < 5; i++) maze.refresh(true); })"
+
+
 def test_thirty_frames_a_second(page):
     """What a frame of 30 x 30 cells costs while it is learnt as fast as it can, and the dearest kind of frame, which
-    draws everything anew."""
+    draws everything anew: what 12 ms of learning leave of a thirtieth of a second, 21 ms or 1.3 times the
+    reference."""
     page.select_option("#preset", "Nine rooms, 30 by 30")
     page.evaluate("page.then(({lab, maze}) => { while (lab.view.classes < 400) lab.tick(1000);"
                   " maze.finished = true; maze.setSpeed(4); window.runner = maze.runner; })")  # fmt: skip
@@ -190,14 +212,14 @@ def test_thirty_frames_a_second(page):
     page.click("#run")
     frames = page.evaluate("runner.frames") - first
     mean = (processor_ms(devtools) - start) / frames
-    start = processor_ms(devtools)
-    page.evaluate("page.then(({maze}) => { for (let i = 0; i < 20; i++) maze.refresh(true); })")
-    whole = (processor_ms(devtools) - start) / 20
+    pairs = [(cost_ms(page, devtools, DRAW_ANEW) / 5, cost_ms(page, devtools, REFERENCE)) for _ in range(5)]
+    whole, reference = min(pairs, key=lambda pair: pair[0] / pair[1])
     slice_ms = page.evaluate("SLICE_MS")
     print(f"{page.viewport_size['width']} pixels: {mean:.1f} ms of processor time a frame (mean of {frames}), "
-          f"{whole:.1f} ms to draw everything anew beside {slice_ms} ms of learning")  # fmt: skip
+          f"{whole:.1f} ms to draw everything anew ({reference:.1f} ms for the reference) "
+          f"beside {slice_ms} ms of learning")  # fmt: skip
     assert mean < 1000 / 30
-    assert slice_ms + whole < 1000 / 30
+    assert whole < 1.3 * reference
 
 
 def test_decision(page):
