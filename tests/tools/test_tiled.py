@@ -253,7 +253,7 @@ def test_folders_of_pictures(tmp_path):
     wide.write_bytes(b"P6 64 64 65535\n" + numpy.repeat(picture(0), 2, axis=2).tobytes())
     arguments = ("--maze", "small", "--images", tmp_path / "pictures", "--interactions", 600, "--poses", "0,1")
     refused = tiled(*arguments)
-    assert refused.returncode == 2 and "thing0/0.PPM: a picture of 8 bits" in refused.stderr
+    assert refused.returncode == 2 and "thing0/0.PPM: not 8 bits a channel" in refused.stderr
     assert "among pictures of" in tiled(*arguments, "--scale-depth").stderr
     made = report(tmp_path, *arguments, "--scale-depth", "--resize", 64)
     assert [one["name"] for one in made["objects"]] == [f"thing{i}" for i in range(10)]

@@ -38,7 +38,8 @@ std::vector<fs::path> list_folder(const std::string &folder) {
         throw std::runtime_error("cannot read '" + folder + "': " + error.message());
     }
     if (paths.empty()) {
-        throw std::runtime_error("there is no picture in '" + folder + "'");
+        throw std::runtime_error("there is no picture in '" + folder +
+                                 "'; read are BMP, JPEG, PGM, PNG, PPM, TIFF and WebP");
     }
     std::sort(paths.begin(), paths.end());
     return paths;
@@ -82,7 +83,8 @@ void check_alike(const cv::Mat &first, const cv::Mat &picture, const fs::path &p
     if (picture.size() != first.size()) {
         throw std::runtime_error(path.string() + ": " + std::to_string(picture.cols) + " x " +
                                  std::to_string(picture.rows) + " pixels among pictures of " +
-                                 std::to_string(first.cols) + " x " + std::to_string(first.rows));
+                                 std::to_string(first.cols) + " x " + std::to_string(first.rows) +
+                                 "; resize scales all alike");
     }
     if (picture.channels() != first.channels()) {
         throw std::runtime_error(path.string() + (first.channels() == 1

@@ -97,7 +97,7 @@ cv::Mat read_picture(const fs::path &path, const Reading &reading) {
         picture.convertTo(picture, CV_8U, 1.0 / 257.0);
     }
     if (picture.depth() != CV_8U) {
-        refuse(path, "a picture of 8 bits a channel is wanted; 16 are scaled only on request");
+        refuse(path, "not 8 bits a channel; 16 are scaled if scale-depth is set");
     }
     if (picture.channels() != 1 && picture.channels() != 3) {
         refuse(path, "neither grey nor colour");
