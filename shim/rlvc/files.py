@@ -27,8 +27,8 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from . import _native as native
-from .checks import named
-from .errors import StoreError
+from .checks import named, shown
+from .errors import Error, StoreError
 
 try:
     import fcntl
@@ -71,6 +71,27 @@ def name_of(path: str | Path) -> str:
     if "\0" in name or not name:
         raise OSError(errno.EINVAL, "not the name of a file")
     return name
+
+
+def checked_name(what: str, path: Any, error: type[Error]) -> str:
+    """Return the name of a file that a caller gave.
+
+    Parameters
+    ----------
+    what : str
+        What the file is, for the error.
+    path : str or Path
+    error : type
+        The exception to raise where it is no name.
+
+    Returns
+    -------
+    str
+    """
+    try:
+        return name_of(path)
+    except OSError as cause:
+        raise error(f"{what}: {shown(path)}: {cause.strerror}") from cause
 
 
 def open_file(path: str | Path) -> BinaryIO:

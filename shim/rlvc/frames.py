@@ -17,6 +17,7 @@ from . import objects
 from ._native import TERMINATED
 from .checks import named
 from .errors import LogError, PictureError
+from .files import checked_name
 from .logs.csv_log import table_of
 from .logs.learn_from import learn_from
 from .logs.table import Table, from_table
@@ -57,7 +58,8 @@ class Frames:
     """
 
     def __init__(self, source: str | Path, scale_depth: bool = False) -> None:
-        self.source, self._scale_depth = Path(source), scale_depth
+        self.source = Path(checked_name("frames", source, PictureError))
+        self._scale_depth = scale_depth
         self.names: list[str] = []
         if self.source.is_dir():
             found = (path.name for path in self.source.iterdir() if _is_picture(path))
@@ -125,12 +127,13 @@ class Frames:
                 f"{self.source}: a video needs OpenCV's package: pip install 'rlvc[vision]'; or write "
                 "its frames into a folder: ffmpeg -i VIDEO FOLDER/%06d.png"
             ) from None
-        video, chosen = cv2.VideoCapture(str(self.source)), wanted if wanted is None else set(wanted)
+        video, chosen = cv2.VideoCapture(str(self.source)), None if wanted is None else set(wanted)
+        last = None if chosen is None else max(chosen, default=-1)
         try:
             if not video.isOpened():
                 raise PictureError(f"{self.source}: not a video that can be read")
             i = 0
-            while chosen is None or i <= max(chosen, default=-1):
+            while last is None or i <= last:
                 there, picture = video.read()
                 if not there:
                     break
@@ -180,7 +183,7 @@ def find_log(source: str | Path) -> Path:
     LogError
         There is none, or there are several.
     """
-    source = Path(source)
+    source = Path(checked_name("frames", source, LogError))
     if _is_picture(source):
         raise LogError(f"{named(source)}: one picture: give the folder of the frames, or a video")
     beside = source.with_suffix(".csv") if not source.is_dir() else Path(f"{source.resolve()}.csv")

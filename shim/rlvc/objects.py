@@ -13,9 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from .checks import listed, shown, whole
+from .checks import flag, listed, whole
 from .errors import PictureError, RangeError
-from .files import name_of
+from .files import checked_name
 
 
 class Objects(NamedTuple):
@@ -73,6 +73,12 @@ def given(pictures: npt.NDArray[np.uint8]) -> Objects:
     return Objects(names, list(range(pictures.shape[1])), pictures, None)
 
 
+def _reading(resize: int | None, scale_depth: bool) -> tuple[int, bool]:
+    """The pixels of a side, 0 for as many as there are, and whether to scale 16 bits to 8."""
+    side = 0 if resize is None else whole("resize", resize, 8, 4096)
+    return side, flag("scale_depth", scale_depth)
+
+
 def read(
     path: str | Path, resize: int | None = None, scale_depth: bool = False
 ) -> npt.NDArray[np.uint8]:
@@ -101,9 +107,12 @@ def read(
     """
     library = _native.load_optional("rlvc-objects", _native.OBJECTS)
     handle, text = ctypes.c_void_p(), ctypes.create_string_buffer(512)
-    side = 0 if resize is None else whole("resize", resize, 8, 4096)
     status = library.rlvc_shim_objects_read(
-        os.fsencode(path), side, scale_depth, ctypes.byref(handle), text, len(text)
+        os.fsencode(checked_name("picture", path, PictureError)),
+        *_reading(resize, scale_depth),
+        ctypes.byref(handle),
+        text,
+        len(text),
     )
     if status != 0:
         raise PictureError(text.value.decode(errors="replace"))
@@ -159,21 +168,16 @@ def find(
     chosen = list(dict.fromkeys(whole("angles", angle, 0, 359, RangeError) for angle in each))
     if not chosen:
         raise RangeError("angles: give at least one")
-    if not 1 <= wanted <= 65536:
-        raise RangeError(f"wanted: {wanted} is not in [1, 65536]")
-    try:
-        where = "" if folder is None else name_of(folder)
-    except OSError as error:
-        raise PictureError(f"pictures: {shown(folder)}: {error.strerror}") from error
+    count = whole("wanted", wanted, 1, 65536, RangeError)
+    where = "" if folder is None else checked_name("pictures", folder, PictureError)
     handle, text = ctypes.c_void_p(), ctypes.create_string_buffer(512)
     numbers = np.array(chosen, np.int32)
     status = library.rlvc_shim_objects_find(
         os.fsencode(where),
         numbers.ctypes.data,
         len(chosen),
-        wanted,
-        0 if resize is None else whole("resize", resize, 8, 4096),
-        scale_depth,
+        count,
+        *_reading(resize, scale_depth),
         ctypes.byref(handle),
         text,
         len(text),

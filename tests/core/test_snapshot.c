@@ -111,7 +111,7 @@ static void test_resume_anywhere(void **state) {
             steps += progress.done;
             if (n % 3 == 0 && p.agent->replay.count < p.config.capacity - 200u)
                 player_play(&p, 1);
-            const uint32_t due = n < 1000u ? every : 7u * every; /* two kinds take 20,000 slices */
+            const uint32_t due = n < 1000u ? every : RLVC_STRIDE * every; /* two take 20,000 */
             if (n % due == 0 || phases[p.agent->learner.phase] < 3u) {
                 phases[p.agent->learner.phase]++;
                 resume_and_compare(budget, &store);

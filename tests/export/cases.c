@@ -192,25 +192,29 @@ static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
     return near & 1u ? (near & 2u ? 2u : 1u) : near & 4u ? 3u : 0u;
 }
 
+static void teach_vectors(rlvc_agent *agent, uint32_t form,
+                          uint32_t wanted(const vectors *percept, uint32_t form)) {
+    uint64_t state = 1;
+    for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
+        vectors percept;
+        memset(&percept, 0, sizeof percept);
+        draw_vectors(&state, form, &percept);
+        decide(agent, &percept, wanted(&percept, form));
+    }
+    learn(agent);
+}
+
 static learnt make_vectors(uint32_t form, FILE *saved) {
     static rlvc_descriptors descriptors;
     learnt made = {.descriptors = &descriptors};
     rlvc_domain domain;
-    uint64_t state = 1;
     must(rlvc_descriptors_default(&descriptors, POINTS, DIMENSIONS, form, 150.0f), "default");
     descriptors.candidates = 24;
     descriptors.draws = 2;
     must(rlvc_descriptors_domain(&descriptors, &domain), "domain");
     made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f, saved);
-    if (saved)
-        return made;
-    for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
-        vectors percept;
-        memset(&percept, 0, sizeof percept);
-        draw_vectors(&state, form, &percept);
-        decide(made.agent, &percept, wanted_of_vectors(&percept, form));
-    }
-    learn(made.agent);
+    if (!saved)
+        teach_vectors(made.agent, form, wanted_of_vectors);
     return made;
 }
 
@@ -297,21 +301,13 @@ static learnt make_parts(uint32_t form, FILE *saved) {
     static rlvc_bags bags;
     learnt made = {.descriptors = &bags.vectors, .bags = &bags};
     rlvc_domain domain;
-    uint64_t state = 1;
     must(rlvc_bags_default(&bags, POINTS, DIMENSIONS, form, 40.0f), "default");
     bags.size = BAG_SIZE;
     bags.vectors.candidates = 3; /* emulated machines learn it, too */
     must(rlvc_bags_domain(&bags, &domain), "domain");
     made.agent = make_agent(&domain, VECTORS_CAPACITY, 1.0f, saved);
-    if (saved)
-        return made;
-    for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
-        vectors percept;
-        memset(&percept, 0, sizeof percept);
-        draw_vectors(&state, form, &percept);
-        decide(made.agent, &percept, wanted_of_parts(&percept, form));
-    }
-    learn(made.agent);
+    if (!saved)
+        teach_vectors(made.agent, form, wanted_of_parts);
     return made;
 }
 

@@ -150,11 +150,26 @@ def test_what_is_wrong_is_named(folder, tmp_path):
     told(errors.PictureError, "there is no picture in", empty)
 
 
+@pytest.mark.parametrize("value", [None, 3, "", "a\0b", "\ud800", [[]]], ids=repr)
+def test_what_is_no_name(value):
+    from rlvc import frames
+
+    for call, error in (
+        (frames.Frames, errors.PictureError),
+        (frames.find_log, errors.LogError),
+        (objects.read, errors.PictureError),
+    ):
+        with pytest.raises(error, match=r"^(frames|picture): .*: not the name of a file$"):
+            call(value)
+    with pytest.raises(errors.ConfigError, match="scale_depth: "):
+        objects.read("some.png", scale_depth=2)
+
+
 def test_sixteen_bits(folder, views):
     from rlvc import frames
 
     write(folder / "frame3.ppm", views[3], 16)
-    with pytest.raises(errors.PictureError, match=r"frame3\.ppm: a picture of 8 bits"):
+    with pytest.raises(errors.PictureError, match=r"frame3\.ppm: not 8 bits a channel"):
         frames.learn_from_frames(folder)
     assert sorts(frames.learn_from_frames(folder, scale_depth=True, discount=0.0), views)
     assert (objects.read(folder / "frame3.ppm", scale_depth=True) == views[3]).all()

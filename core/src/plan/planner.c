@@ -220,8 +220,8 @@ static void note_return(rlvc_planner *planner) {
     if (acting->why < RLVC_PLANNER_NEW || archive->trial[acting->trial].serial != acting->serial)
         return;
     rlvc_archive_note(archive, acting->trial, planner->now, planner->earned);
-    planner->planning.rolling = planner->planning.rolled =
-        0; /* what was being rolled out may be another episode now */
+    /* what was being rolled out may be another episode now */
+    planner->planning.rolling = planner->planning.rolled = 0;
 }
 
 /* Is exploring still worth it? Of the cells that the episode might have been the first in, it was

@@ -6,9 +6,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..checks import shown
 from ..errors import LogError
-from ..files import name_of
+from ..files import checked_name
 from . import layout
 
 
@@ -20,10 +19,7 @@ def filesystem_of(path: str) -> tuple[Any, str]:
     path : str
     """
     pa = layout.arrow()
-    try:
-        name_of(path)
-    except OSError as error:
-        raise LogError(f"{shown(path)}: {error.strerror}") from error
+    checked_name("source", path, LogError)
     if "://" not in path:
         return pa.fs.LocalFileSystem(), path
     try:

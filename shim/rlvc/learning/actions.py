@@ -113,14 +113,7 @@ class Actions:
     def fit(self, space: Any) -> bool:
         """Whether these are all actions of a space, or of a Box some within its bounds.
 
-        Parameters
-        ----------
-        space : gymnasium.Space
-
-        Returns
-        -------
-        bool
-            Words, which a log may have, are not looked for: True.
+        What it takes and returns is as for :meth:`within`.
 
         Raises
         ------

@@ -146,14 +146,14 @@ def _called(name: str, method: Callable[..., Any], *arguments: Any, **options: A
     except Error:
         raise
     except Exception as error:
-        call = f"{name}({', '.join(f'{shown(argument)}' for argument in arguments)})"
+        call = f"{name}({', '.join(map(shown, arguments))})"
         fault = told(error)
         raise EnvError(f"{call} of the environment raised {fault}") from error
 
 
 def _five(returned: Any) -> Any:
     if not isinstance(returned, tuple) or len(returned) != 5:
-        count = f"{len(returned)} values" if isinstance(returned, tuple) else f"{shown(returned)}"
+        count = f"{len(returned)} values" if isinstance(returned, tuple) else shown(returned)
         raise EnvError(
             f"step() returned {count}, expected (observation, reward, terminated, truncated, info)"
             + (f": {_OLD}" if count == "4 values" else "")
