@@ -193,13 +193,13 @@ static uint32_t wanted_of_vectors(const vectors *percept, uint32_t form) {
 }
 
 static void teach_vectors(rlvc_agent *agent, uint32_t form,
-                          uint32_t wanted(const vectors *percept, uint32_t form)) {
+                          uint32_t decision(const vectors *percept, uint32_t form)) {
     uint64_t state = 1;
     for (uint32_t i = 0; i < VECTORS_CAPACITY; i++) {
         vectors percept;
         memset(&percept, 0, sizeof percept);
         draw_vectors(&state, form, &percept);
-        decide(agent, &percept, wanted(&percept, form));
+        decide(agent, &percept, decision(&percept, form));
     }
     learn(agent);
 }

@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr int side = 128;
+constexpr int side_pixels = 128;
 constexpr int texture_width = 720, texture_height = 256;
 constexpr double pi = 3.14159265358979323846;
 
@@ -84,14 +84,14 @@ cv::Mat render_object(uint32_t number, int angle) {
     const cv::Mat texture = paint_texture(random);
     const int shape = random.uniform(0, 5);
     const double top = random.uniform(0.04, 0.2), height = random.uniform(0.7, 0.95) - top;
-    cv::Mat map_x(side, side, CV_32F, cv::Scalar(-1.0)),
-        map_y(side, side, CV_32F, cv::Scalar(-1.0));
-    cv::Mat shade(side, side, CV_32F, cv::Scalar(0.0));
-    for (int y = 0; y < side; y++) {
-        const double t = (static_cast<double>(y) / side - top) / height;
-        const double radius = t >= 0.0 && t <= 1.0 ? side * outline(shape, t) : 0.0;
-        for (int x = 0; x < side; x++) {
-            const double s = radius > 0.0 ? (x - side / 2.0) / radius : 2.0;
+    cv::Mat map_x(side_pixels, side_pixels, CV_32F, cv::Scalar(-1.0)),
+        map_y(side_pixels, side_pixels, CV_32F, cv::Scalar(-1.0));
+    cv::Mat shade(side_pixels, side_pixels, CV_32F, cv::Scalar(0.0));
+    for (int y = 0; y < side_pixels; y++) {
+        const double t = (static_cast<double>(y) / side_pixels - top) / height;
+        const double radius = t >= 0.0 && t <= 1.0 ? side_pixels * outline(shape, t) : 0.0;
+        for (int x = 0; x < side_pixels; x++) {
+            const double s = radius > 0.0 ? (x - side_pixels / 2.0) / radius : 2.0;
             if (std::abs(s) < 1.0) {
                 const double turn = std::asin(s) / (2.0 * pi) + angle / 360.0;
                 map_x.at<float>(y, x) =
@@ -102,10 +102,10 @@ cv::Mat render_object(uint32_t number, int angle) {
             }
         }
     }
-    cv::Mat seen, picture(side, side, CV_8UC3, cv::Scalar::all(25.0));
+    cv::Mat seen, picture(side_pixels, side_pixels, CV_8UC3, cv::Scalar::all(25.0));
     cv::remap(texture, seen, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-    for (int y = 0; y < side; y++) {
-        for (int x = 0; x < side; x++) {
+    for (int y = 0; y < side_pixels; y++) {
+        for (int x = 0; x < side_pixels; x++) {
             const float light = shade.at<float>(y, x);
             if (light > 0.0f) {
                 const cv::Vec3b paint = seen.at<cv::Vec3b>(y, x);
