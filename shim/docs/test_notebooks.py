@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The notebooks run, and their outputs are committed, small. RLVC_WRITE_NOTEBOOKS=1 writes what they print now."""
 
+import itertools
 import os
 import pathlib
 
@@ -13,8 +14,9 @@ BYTES = 64 * 1024
 
 
 def kinds(notebook):
-    """What kind of output each cell has."""
-    return [[output["output_type"] for output in cell.get("outputs", [])] for cell in notebook.cells]
+    """What kinds of output each cell has, one after another. What a cell prints may come in several pieces."""
+    outputs = [[output["output_type"] for output in cell.get("outputs", [])] for cell in notebook.cells]
+    return [[kind for kind, _ in itertools.groupby(each)] for each in outputs]
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
