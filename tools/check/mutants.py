@@ -164,7 +164,7 @@ def build(workers):
         subprocess.run(["clang-19", "-shared", "-fprofile-instr-generate", "-o", counting / "librlvc-mutant.so",
                         *(task.result() for task in counted)], check=True)
         helpers = [task.result() for task in helped]
-        tried = [pool.submit(compiled, test, BUILD, gcc, ["-O1", *include]) for test in tests]
+        tried = [pool.submit(compiled, test, BUILD, gcc, ["-O0", *include]) for test in tests]
         for test, task in zip(tests, tried):
             subprocess.run(["gcc", "-o", BUILD / test.stem, task.result(), *helpers, f"-L{objects}", "-lrlvc-mutant",
                             "-lcmocka", "-lm"], check=True)

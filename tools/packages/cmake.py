@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The source archive, by CMake and by pkg-config: installed and found, as a part of another project (also one that
-builds in unity), fetched, and by the oldest CMake that it asks for."""
+"""The source archive, by CMake and by pkg-config: installed and found, fetched as a part of another project (one that
+builds in unity), and by the oldest CMake that it asks for."""
 
 import os
 import shutil
@@ -61,10 +61,10 @@ def check(archive, folder):
     prefix = install(folder, "new", cmake, source)
     consume(folder, "shared", cmake, FIND, "rlvc::rlvc", f"-DCMAKE_PREFIX_PATH={prefix}")
     consume(folder, "static", cmake, FIND, "rlvc::rlvc_static", f"-DCMAKE_PREFIX_PATH={prefix}")
-    consume(folder, "unity", cmake, f"add_subdirectory({source} rlvc)", "rlvc::rlvc", "-DCMAKE_UNITY_BUILD=ON")
-    consume(folder, "fetched", cmake, FETCH.format(archive=archive, hash=digest), "rlvc::rlvc_static")
+    # What is fetched is added as a directory is, here to a project that builds in unity.
+    consume(folder, "fetched", cmake, FETCH.format(archive=archive, hash=digest), "rlvc::rlvc", "-DCMAKE_UNITY_BUILD=ON")
     by_pkg_config(prefix, folder)
-    ways = "find_package, add_subdirectory in unity, FetchContent, pkg-config without ldconfig"
+    ways = "find_package, FetchContent in unity, pkg-config without ldconfig"
     oldest = os.environ.get("RLVC_OLD_CMAKE") or shutil.which("cmake-3.16")
     if not oldest:
         return f"{ways}; not by CMake 3.16 (RLVC_OLD_CMAKE names none)"
