@@ -33,7 +33,7 @@ def caller(tmp_path_factory):
     program = tmp_path_factory.mktemp("caller") / "caller"
     sources = sorted([*(ROOT / "core/src").glob("*/*.c"), *(ROOT / "core/domains").glob("*.c")])
     subprocess.run(
-        ["gcc", "-std=c99", "-O1", "-ffp-contract=off", f"-I{ROOT / 'core/include'}", "-o", program,
+        ["gcc", "-std=c99", "-O0", "-ffp-contract=off", f"-I{ROOT / 'core/include'}", "-o", program,
          pathlib.Path(__file__).with_name("caller.c"), *sources],
         check=True,
     )  # fmt: skip

@@ -90,7 +90,7 @@ def test_it_learns_what_matters(learnt):
 
 
 def test_what_is_learnt_does_not_depend_on_the_slices(learnt):
-    sliced, slices = fed(budget=rlvc.Planner(2, 2).budget_min)
+    sliced, slices = fed(budget=10 * rlvc.Planner(2, 2).budget_min)  # tests/core takes the least
     assert slices > 10
     assert sliced.print("json") == learnt.print("json")
     assert sliced.statistics == learnt.statistics
