@@ -128,7 +128,10 @@ typedef struct rlvc_config {
 
     uint8_t reserved; /* 0 */
 
-    /* Discount factor, gamma of equation (1), [0, 1]. Default 0.9. */
+    /* Discount factor, gamma of equation (1), [0, 1]. Default 0.9. What is d moves away counts
+     * discount^d, and neighbouring numbers of binary32 differ by a ten millionth: where every move
+     * has a reward, what is more than some 150 moves away tells no actions apart at 0.9, nor does
+     * what is more than 1,600 away at 0.99. A coarse tolerance ends sight earlier. */
     float discount;
 
     /* Probability that rlvc_act explores, [0, 1]. Default 0.9. */
