@@ -7,6 +7,7 @@ import contextlib
 import difflib
 import itertools
 import math
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -14,13 +15,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .errors import ArrayError, ConfigError, Error
+from .errors import ArrayError, ConfigError, Error, SnapshotError
 
 _LISTED_MAX = 1_000_000
 
 
 def shown(value: Any) -> str:
-    """Return a value as an error shows it: at most 80 characters, also where it cannot be spelt.
+    """Return a value as an error shows it: one line of 80 characters, also where it cannot be spelt.
 
     Parameters
     ----------
@@ -31,7 +32,7 @@ def shown(value: Any) -> str:
     str
     """
     try:
-        return f"{value!r:.80}"
+        return re.sub(r"\s*\n\s*", " ", f"{value!r:.160}")[:80]  # arrays take several lines
     except Exception:  # of a class of the caller, a list within itself, an int of 5,000 digits
         return f"<{type(value).__name__}>"
 
@@ -199,6 +200,28 @@ def flag(name: str, value: Any, error: type[Error] = ConfigError) -> bool:
     if isinstance(found, bool | int | float) and found in (0, 1):
         return bool(found)
     raise error(f"{name}: {shown(value)} is not a truth value: give True or False")
+
+
+def pickled(state: Any, *names: str) -> list[Any]:
+    """Take the members of a pickle's state.
+
+    Parameters
+    ----------
+    state : dict
+    names : str
+
+    Returns
+    -------
+    list
+
+    Raises
+    ------
+    SnapshotError
+        It is no dict, or lacks one of them.
+    """
+    if not isinstance(state, dict) or not all(name in state for name in names):
+        raise SnapshotError(f"not a pickle of this package: it lacks {', '.join(names)}")
+    return [state[name] for name in names]
 
 
 def told(error: BaseException) -> str:

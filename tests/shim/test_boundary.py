@@ -8,6 +8,7 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium import spaces
+from test_values import Raises
 
 import rlvc
 from rlvc import errors
@@ -393,3 +394,50 @@ def test_what_newcomers_do_is_answered(call, said):
     with pytest.raises(errors.Error) as caught:
         call()
     assert said in str(caught.value)
+
+
+class Both(gymnasium.vector.SyncVectorEnv):
+    """Two rings, one of whose five answers is replaced."""
+
+    def __init__(self, index, value):
+        super().__init__([Ring, Ring])
+        self.index, self.value = index, value
+
+    def step(self, actions):
+        answers = list(super().step(actions))
+        answers[self.index] = self.value
+        return tuple(answers)
+
+
+@pytest.mark.parametrize("index", range(4))
+@pytest.mark.parametrize("value", [[], [0], [0, 1, 0], np.zeros(3), "xy", None, Raises()], ids=type)
+def test_a_vector_that_answers_for_another_number(index, value):
+    with pytest.raises(errors.Error):
+        rlvc.learn(Both(index, value), 50)
+
+
+def test_a_box_of_actions_as_large_as_a_picture():
+    env = Ring()
+    env.action_space = spaces.Box(0, 255, (84, 84, 3), np.uint8)
+    with pytest.raises(errors.SpaceError, match=r"over 10\*\*9 actions"):
+        rlvc.learn(env, 50, bins=3)
+
+
+@pytest.mark.parametrize("name", ["spec", "unwrapped"])
+def test_what_names_a_task_may_be_odd(name):
+    """The names of a known task's numbers are a help: without them it learns all the same."""
+    odd = type("Odd", (Ring,), {name: Raises()})
+    assert rlvc.learn(odd(), 50, seed=1).text() == rlvc.learn(Ring(), 50, seed=1).text()
+
+
+@pytest.mark.parametrize("name", ["action_space", "reset"])
+def test_an_environment_that_raises_when_looked_at(name):
+    env = Ring()
+    setattr(env, name, Raises())
+    with pytest.raises(errors.Error):
+        rlvc.learn(env, 50)
+
+
+def test_an_encoder_that_raises_when_looked_at():
+    with pytest.raises(errors.ConfigError, match="encoder"):
+        rlvc.learn(Ring(), 50, encoder=Raises())

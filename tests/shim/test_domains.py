@@ -260,3 +260,101 @@ def test_forged_records_of_a_domain_of_ones_own(walk):
     for call in (lambda: rlvc.Agent.restore(domain, agent.config, snapshot), agent.check):
         with pytest.raises(KeyError, match="mine"):
             call()
+
+
+METHODS = (
+    "exhibits", "candidates", "name", "feature", "pack", "pack_many", "check_many", "is_one",
+    "detect", "oracle", "check_percept", "check_feature",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_method_that_is_none(name):
+    domain = Corridor()
+    setattr(domain, name, 5)
+    with pytest.raises(errors.DomainError, match=f"{name}: 5 is not a method"):
+        rlvc.Agent(domain, 2)
+
+
+def test_a_domain_without_sizes():
+    class Unfinished(Corridor):
+        def __init__(self):
+            pass
+
+    with pytest.raises(errors.DomainError, match="__init__"):
+        rlvc.Agent(Unfinished(), 2)
+    domain = Corridor()
+    domain.features_max = -1
+    with pytest.raises(errors.ConfigError, match="features_max"):
+        rlvc.Agent(domain, 2)
+
+
+class Raising:
+    """An object of the caller that raises at whatever is asked of it."""
+
+    def _no(self, *arguments):
+        raise RuntimeError("no")
+
+    __iter__ = __len__ = __array__ = __bool__ = __repr__ = __getattr__ = _no
+
+
+@pytest.mark.parametrize("answer", [None, 2, "yes", np.array([True, False]), Raising()], ids=type)
+def test_an_is_one_that_returns_something_else(answer):
+    domain = Corridor()
+    domain.is_one = lambda percept: answer
+    with pytest.raises(errors.DomainError, match=r"is_one\(\)"):
+        rlvc.Agent(domain, 2).predict(np.zeros(1, np.uint8))
+
+
+@pytest.mark.parametrize("answer", [False, True, 0, np.zeros(2), Raising()], ids=type)
+def test_a_check_many_that_returns_something(answer):
+    """It raises where a percept is invalid; one that returns False would let it pass."""
+
+    class Answering(Corridor):
+        def check_many(self, packed):
+            return answer
+
+    batch = rlvc.Agent(Answering(), 2).batch(2)
+    for call in (batch.act, batch.observe):
+        with pytest.raises(errors.DomainError, match=r"check_many\(\) returned"):
+            call()
+
+
+def test_a_check_many_that_raises():
+    class Failing(Corridor):
+        said = KeyError("mine")
+
+        def check_many(self, packed):
+            raise self.said
+
+    domain = Failing()
+    agent = rlvc.Agent(domain, 2)
+    batch = agent.batch(2)
+    for call in (batch.act, batch.observe):
+        with pytest.raises(KeyError, match="mine"):
+            call()
+    domain.said = errors.PerceptError("not mine")
+    with pytest.raises(errors.PerceptError, match="not mine"):
+        batch.observe()
+    assert agent.statistics.interactions == 0
+
+
+@pytest.mark.parametrize("method", ["candidates", "oracle"])
+def test_answers_that_raise_when_looked_at(method, walk):
+    domain = Corridor()
+    setattr(domain, method, lambda *arguments: Raising())
+    with pytest.raises(errors.DomainError, match=rf"{method}\(\) returned <Raising>"):
+        walk(domain).learn()
+
+
+@pytest.mark.parametrize("packed", [b"", bytes(5), None, np.zeros(2, np.float32)])
+def test_a_policy_does_not_trust_a_domain_either(packed):
+    """A subclass of a ready-made domain is the caller's: what it packs is checked, as an agent does."""
+
+    class Own(rlvc.Thresholds):
+        def pack(self, percept):
+            return packed
+
+    policy = rlvc.PlannedPolicy(Own(2), 2, [(0.0, 65535, 0, 1)])
+    with pytest.raises(errors.DomainError, match=r"pack\(\) returned"):
+        policy.act(np.zeros(2, np.float32))

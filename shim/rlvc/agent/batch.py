@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import whole
+from ..checks import shown, whole
 from ..domains.domain import Domain
-from ..errors import ArrayError, RangeError
+from ..errors import ArrayError, DomainError, RangeError
 from .results import CHOICE
 
 if TYPE_CHECKING:
@@ -187,6 +187,13 @@ class Batch:
         self._native.count = number
         self._taken = count
 
+    def _check(self, percepts: npt.NDArray[Any]) -> None:
+        answer = self._domain.check_many(percepts)  # type: ignore[func-returns-value]
+        if answer is not None:
+            raise DomainError(
+                f"check_many() returned {shown(answer)}, expected None: it raises PerceptError"
+            )
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Refuse to be pickled."""
         raise TypeError("a batch is not pickled: pickle the agent, and call its batch() again")
@@ -216,7 +223,7 @@ class Batch:
         if count is not self._taken:
             self._take(count)
         if self._checked:
-            self._domain.check_many(self._percepts[:count])
+            self._check(self._percepts[:count])
         status = self._act(self._agent._handle, self._log, self._stopped)
         if status:
             self._agent._fail(status, self._done.value)
@@ -245,8 +252,8 @@ class Batch:
             self._take(count)
         if self._checked:
             goes_on = self._ends[:count] != _native.TERMINATED
-            self._domain.check_many(self._percepts[:count])
-            self._domain.check_many(self._next_percepts[:count][goes_on])
+            self._check(self._percepts[:count])
+            self._check(self._next_percepts[:count][goes_on])
         status = self._observe(self._agent._handle, self._log, self._stopped)
         if status:
             self._agent._fail(status, self._done.value)

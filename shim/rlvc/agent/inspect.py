@@ -65,7 +65,7 @@ class Queries(Learner[Domain, Config]):
         ArrayError
             ``out`` has the wrong dtype or shape, is not C-contiguous, or is read-only.
         """
-        if not self._domain.is_one(percept):
+        if not self._is_one(percept):
             return self._predict_many(percept, out)
         status = _predict(self._handle, self._pack(percept), *self._answers)
         if status:

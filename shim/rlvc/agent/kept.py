@@ -59,7 +59,8 @@ def unpack(kind: str, content: bytes) -> tuple[dict[str, Any], bytes]:
     SnapshotError
         It is of another kind or version, or is corrupt.
     """
-    first = re.match(rb"rlvc %b (\d{1,9})\n" % kind.encode(), content)
+    start = rb"rlvc %b (\d{1,9})\n" % kind.encode()
+    first = re.match(start, content) if isinstance(content, bytes) else None
     if first is None:
         raise SnapshotError(f"not the file of {'an' if kind == 'agent' else 'a'} {kind}")
     version, newest = int(first[1]), VERSIONS[kind]

@@ -4,21 +4,15 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-import numpy.typing as npt
-
 from .. import _native
 from ..checks import flag, shown, whole
-from ..domains.bags import Bags
-from ..domains.bits import Bits
 from ..domains.callbacks import Guard
-from ..domains.descriptors import Descriptors
-from ..domains.domain import Domain, Percept, checked_pack, checked_pack_many
-from ..domains.spatial import Spatial
-from ..domains.thresholds import Thresholds
+from ..domains.domain import Domain, Percept
+from ..domains.packing import packing
 from ..errors import Error, PerceptError, RangeError, ReenteredError, RewardError, SnapshotError
 from .handle import Handle, allocated
 from .results import Choice, Progress
@@ -68,13 +62,8 @@ class Learner(Handle, Generic[_D, _C]):
             kept = self._config_type(actions=whole("actions", kept, 1, 255))  # type: ignore[call-arg]
         self._config: Any = kept.replace(**changes) if changes else kept
         self._guard = Guard()
-        self._pack: Callable[[Any], bytes] = made.pack
-        self._pack_many: Callable[[Any], npt.NDArray[Any]] = made.pack_many
         self._native_domain = made.native(self._guard)
-        if type(made) not in (Bags, Bits, Descriptors, Spatial, Thresholds):
-            percept_bytes = int(self._native_domain.percept_bytes)
-            self._pack = checked_pack(made.pack, percept_bytes)
-            self._pack_many = checked_pack_many(made.pack_many, percept_bytes)
+        self._pack, self._pack_many, self._is_one = packing(made)
         self._native_config = self._to_native(self._config, self._native_domain)
         references = (_byref(self._native_config), _byref(self._native_domain))
         size = ctypes.c_size_t()

@@ -143,7 +143,7 @@ class Planner(Learner[Thresholds, PlannerConfig]):
             A percept has the wrong size, dtype or shape, or an element out of range, or the array
             is not C-contiguous.
         """
-        if self._domain.is_one(percept):
+        if self._is_one(percept):
             answer = _byref(self._action)
             self._check(_predict(self._handle, self._pack(percept), None, answer))
             return self._action.value

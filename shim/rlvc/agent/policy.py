@@ -14,6 +14,7 @@ from .. import _native
 from ..checks import real, whole
 from ..domains.callbacks import Guard
 from ..domains.domain import Domain, Percept
+from ..domains.packing import packing
 from .handle import Handle, allocated
 
 if TYPE_CHECKING:
@@ -109,7 +110,6 @@ class Policy(Handle):
         made = Compaction(**(fields | flags))
         place_of = (agent._domain, agent._guard, agent._native_domain)
         self._settle(*place_of, block, policy.value, made)
-        self._pack, self._pack_many = agent._pack, agent._pack_many
 
     def _settle(
         self,
@@ -122,7 +122,7 @@ class Policy(Handle):
     ) -> None:
         """Take over the policy that was made in a block."""
         self._domain, self._guard, self._native_domain = domain, guard, native
-        self._pack, self._pack_many = domain.pack, domain.pack_many
+        self._pack, self._pack_many, self._is_one = packing(domain)
         self._block = block
         self._handle = self._address = address
         self._memory_bytes = 8 * block.size
@@ -147,7 +147,7 @@ class Policy(Handle):
         PerceptError
             A percept has the wrong size, dtype or shape, or the array is not C-contiguous.
         """
-        if self._domain.is_one(percept):
+        if self._is_one(percept):
             status = _policy_act(self._handle, self._pack(percept), self._answer)
             if status:
                 self._fail(status)

@@ -10,11 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import shown
+from ..checks import shown, whole
 from ..errors import DomainError
 
 if TYPE_CHECKING:
     from .domain import Domain
+
+_METHODS = ("exhibits", "candidates", "name", "feature")
+_OPTIONAL = ("detect", "oracle", "check_percept", "check_feature")
 
 
 class Guard:
@@ -50,6 +53,11 @@ class Callbacks:
     """
 
     def __init__(self, domain: Domain, guard: Guard) -> None:
+        if "feature_bytes" not in domain.__dict__:
+            raise DomainError(f"{type(domain).__name__}: its __init__() must call that of rlvc.Domain")
+        for name in _METHODS:
+            if not callable(getattr(domain, name)):
+                raise DomainError(f"{name}: {shown(getattr(domain, name))} is not a method")
         self.domain = domain
         self.guard = guard
         self.percept_dtype, self.percept_shape = domain.percept_dtype, domain.percept_shape
@@ -63,11 +71,14 @@ class Callbacks:
         native = _native.Domain()
         native.percept_bytes = self.percept_bytes
         native.feature_bytes = self.feature_bytes
-        native.features_max = domain.features_max
+        native.features_max = whole("features_max", domain.features_max, 0, 2**32 - 1)
         called = [self.exhibits, self.candidates, self.name]
         methods.exhibits, methods.candidates, methods.name = map(id, called)
-        for name in ("detect", "oracle", "check_percept", "check_feature"):
-            if getattr(domain, name) is not None:
+        for name in _OPTIONAL:
+            method = getattr(domain, name)
+            if method is not None and not callable(method):
+                raise DomainError(f"{name}: {shown(method)} is not a method")
+            if method is not None:
                 called.append(getattr(self, name))
                 setattr(methods, name, id(called[-1]))
         _native.call.rlvc_shim_python_domain(ctypes.byref(methods), ctypes.byref(native))
@@ -143,11 +154,9 @@ class Callbacks:
         """Give the records of an array of features."""
         wanted = self.feature_dtype
         if not isinstance(features, np.ndarray) or features.ndim != 1 or features.dtype != wanted:
-            kind = getattr(features, "dtype", type(features).__name__)
-            raise DomainError(
-                f"candidates() returned {kind}{list(getattr(features, 'shape', []))}, expected "
-                f"{wanted}[n]"
-            )
+            array = isinstance(features, np.ndarray)
+            kind = f"{features.dtype}{list(features.shape)}" if array else shown(features)
+            raise DomainError(f"candidates() returned {kind}, expected {wanted}[n]")
         return features.tobytes()
 
     def detect(self, address: int, first: int, n: int, features: int, m: int, columns: int) -> int:
@@ -180,7 +189,7 @@ class Callbacks:
             proposed, among = answer
             count = int(among.__index__())
             record = np.array([proposed]).astype(self.feature_dtype, casting="same_kind").tobytes()
-        except (AttributeError, TypeError, ValueError) as error:
+        except Exception as error:  # also of a class of the caller
             raise DomainError(
                 f"oracle() returned {shown(answer)}, expected (feature, considered) or None"
             ) from error

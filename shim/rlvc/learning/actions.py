@@ -181,7 +181,7 @@ def actions_of(space: Any, bins: int | Sequence[int] | None = None, hold: int = 
     """
     from gymnasium import spaces
 
-    if 0 in (getattr(space, "shape", None) or ()):
+    if isinstance(space, spaces.Space) and 0 in (space.shape or ()):
         raise SpaceError(f"{space} has no elements, so that there is nothing to choose")
     hold = whole("hold", hold, 1, HOLD_MAX)
     finite = isinstance(space, spaces.Discrete | spaces.MultiDiscrete | spaces.MultiBinary)
@@ -197,7 +197,9 @@ def actions_of(space: Any, bins: int | Sequence[int] | None = None, hold: int = 
     elif isinstance(space, spaces.Box):
         return Actions(*_grid(space, bins), hold=hold)
     else:
-        raise SpaceError(f"an agent needs a finite set of actions, or a Box with bins, not {space}")
+        raise SpaceError(
+            f"an agent needs a finite set of actions, or a Box with bins, not {shown(space)}"
+        )
     count = _count(space, math.prod(len(values) for values in each))
     table = np.array(list(itertools.product(*each)), space.dtype).reshape(-1, *space.shape)
     return Actions(count, 0, table, hold)
@@ -205,8 +207,13 @@ def actions_of(space: Any, bins: int | Sequence[int] | None = None, hold: int = 
 
 def _count(space: Any, count: int) -> int:
     if not 1 <= count <= MOST:
-        raise SpaceError(f"{space} has {count} actions, more than {MOST}")
+        raise SpaceError(f"{shown(space)} has {_number(count)} actions, allowed are [1, {MOST}]")
     return count
+
+
+def _number(count: int) -> str:
+    """A count for an error: of a picture's elements it would have thousands of digits."""
+    return str(count) if count < 10**9 else "over 10**9"
 
 
 def _grid(space: Any, bins: int | Sequence[int] | None) -> tuple[int, int, npt.NDArray[Any]]:
@@ -227,7 +234,7 @@ def _grid(space: Any, bins: int | Sequence[int] | None) -> tuple[int, int, npt.N
     numbers = [whole("bins", n, 1, MOST) for n in given]
     count = math.prod(numbers)
     if count > MOST:
-        raise SpaceError(f"bins: {count} actions, more than {MOST}: use fewer bins")
+        raise SpaceError(f"bins: {_number(count)} actions, more than {MOST}: use fewer bins")
     each = [
         np.linspace(a, b, n) if n > 1 else [(a + b) / 2]
         for a, b, n in zip(low.astype(float), high.astype(float), numbers, strict=True)

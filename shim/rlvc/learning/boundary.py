@@ -42,7 +42,7 @@ def check(env: Any) -> None:
             raise EnvError(f"env: {kind} is not an environment: {told(error)}") from error
     try:
         parameters = inspect.signature(env.reset).parameters
-    except (TypeError, ValueError):  # of a function in C
+    except Exception:  # of a function in C, or of a class of the caller: to call it tells more
         return
     if "seed" not in parameters and all(p.kind is not p.VAR_KEYWORD for p in parameters.values()):
         raise EnvError(f"env: its reset() takes no seed: {_OLD}")
@@ -165,7 +165,7 @@ def _each(values: Any, name: str, count: int) -> list[Any]:
     """The elements of an array, one for each environment."""
     try:
         listed = list(values)
-    except TypeError:
+    except Exception:  # also of a class of the caller
         listed = []
     if len(listed) != count:
         raise EnvError(f"{name}: {shown(values)} is not an array of {count} elements")

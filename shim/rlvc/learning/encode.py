@@ -25,7 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import array, listed, shown, told
+from ..checks import array, listed, pickled, shown, told, whole
 from ..domains.bits import Bits
 from ..domains.domain import Domain
 from ..domains.thresholds import Thresholds
@@ -60,24 +60,6 @@ class Flags:
         self.shape = shape
 
 
-class Columns:
-    """A space of tables: a number or a word in each column; for logs, without Gymnasium.
-
-    An observation is a dict or a row of a table by the names of the columns, or a sequence.
-
-    Parameters
-    ----------
-    columns : dict
-        For each name None, or the words that are in the column.
-    """
-
-    def __init__(self, columns: Mapping[str, Sequence[str] | None]) -> None:
-        self.columns = {
-            str(name): None if words is None else [str(word) for word in words]
-            for name, words in columns.items()
-        }
-
-
 class Number:
     """A space of numbers from 0 on, encoded like a Discrete; for logs, without Gymnasium.
 
@@ -99,7 +81,7 @@ class Word:
     """
 
     def __init__(self, words: Sequence[str]) -> None:
-        self.words = [str(word) for word in words]
+        self.words = [str(word) for word in listed("words", words, "words", SpaceError)]
 
 
 class Named:
@@ -112,7 +94,32 @@ class Named:
     """
 
     def __init__(self, spaces: Mapping[str, Any]) -> None:
-        self.spaces = dict(spaces)
+        self.spaces = dict(_members("spaces", spaces))
+
+
+class Columns:
+    """A space of tables: a number or a word in each column; for logs, without Gymnasium.
+
+    An observation is a dict or a row of a table by the names of the columns, or a sequence.
+
+    Parameters
+    ----------
+    columns : dict
+        For each name None, or the words that are in the column.
+    """
+
+    def __init__(self, columns: Mapping[str, Sequence[str] | None]) -> None:
+        self.columns = {
+            str(name): None if words is None else Word(words).words
+            for name, words in _members("columns", columns)
+        }
+
+
+def _members(name: str, given: Any) -> list[tuple[Any, Any]]:
+    """Return the keys and values of a dict."""
+    if not isinstance(given, Mapping):
+        raise SpaceError(f"{name}: {shown(given)} is not a dict")
+    return list(given.items())
 
 
 def _parts(space: Any, path: tuple[Any, ...] = ()) -> list[Part]:
@@ -178,18 +185,30 @@ class Encoder:
         self, space: Any, thresholds: int = 15, names: Sequence[str] | None = None
     ) -> None:
         parts = _parts(space)
-        given: list[str | None] = [None] * sum(part.size for part in parts)
+        numbers = sum(part.size for part in parts)
         if names is not None:
             words = [] if isinstance(names, str) else listed("names", names, "names")
-            if len(words) != len(given):
+            if len(words) != numbers:
                 raise ConfigError(
-                    f"names: {shown(names)}: give a list of {len(given)} names for {space!s:.80}"
+                    f"names: {shown(names)}: give a list of {numbers} names for {space!s:.80}"
                 )
-            given = [str(word) for word in words]
-        self._settle(parts, thresholds, given)
+            names = [str(word) for word in words]
+        self._settle(parts, thresholds, names)
 
-    def _settle(self, parts: list[Part], thresholds: int, given: list[str | None]) -> None:
-        self._parts, self._thresholds, self._given = parts, thresholds, given
+    def _settle(
+        self, parts: list[Part], thresholds: int, names: Sequence[str | None] | None
+    ) -> None:
+        size, real = sum(part.width for part in parts), any(part.kind == "reals" for part in parts)
+        if not 1 <= size <= (_native.THRESHOLDS_COMPONENTS_MAX if real else _native.BITS_MAX):
+            kind = "components" if real else "bits"
+            raise SpaceError(
+                f"the space needs {size} {kind}, and a percept has 1 to {_native.BITS_MAX}: pass an "
+                "encoder, for pictures an rlvc.vision.Eye"
+            )
+        cutpoints = whole("thresholds", thresholds, 0, _native.THRESHOLDS_CUTPOINTS_MAX)
+        self.domain = Thresholds(size, cutpoints) if real else Bits(size)
+        given = [None] * sum(part.size for part in parts) if names is None else list(names)
+        self._parts, self._thresholds, self._given = parts, cutpoints, given
         self.names: list[str] = []
         self.flags: list[bool] = []
         self.elements: list[tuple[str, list[int]]] = []
@@ -201,14 +220,6 @@ class Encoder:
                 self.elements.append((element, list(range(first, len(self.names)))))
             self.flags += [part.kind != "reals"] * (len(self.names) - len(self.flags))
             at += part.size
-        size, real = len(self.names), any(part.kind == "reals" for part in parts)
-        if not 1 <= size <= (_native.THRESHOLDS_COMPONENTS_MAX if real else _native.BITS_MAX):
-            kind = "components" if real else "bits"
-            raise SpaceError(
-                f"the space needs {size} {kind}, and a percept has 1 to {_native.BITS_MAX}: pass an "
-                "encoder, for pictures an rlvc.vision.Eye"
-            )
-        self.domain = Thresholds(size, thresholds) if real else Bits(size)
         self._bytes = self.domain.percept_bytes
         # Of one Discrete every percept is known beforehand.
         self._table = parts[0].table(real) if len(parts) == 1 and parts[0].path == () else None
@@ -254,11 +265,31 @@ class Encoder:
 
     @classmethod
     def from_json(cls, text: str) -> Encoder:
-        """Make an encoder of the text of :meth:`to_json`."""
-        made_of = json.loads(text)
+        """Make an encoder of the text of :meth:`to_json`.
+
+        Parameters
+        ----------
+        text : str
+
+        Returns
+        -------
+        Encoder
+
+        Raises
+        ------
+        SpaceError
+            The text is not one of :meth:`to_json`.
+        """
         encoder = cls.__new__(cls)
-        parts = [Part.from_dict(part) for part in made_of["parts"]]
-        encoder._settle(parts, made_of["thresholds"], made_of["names"])
+        try:
+            made_of = json.loads(text)
+            parts = [Part.from_dict(part) for part in made_of["parts"]]
+            names = [None if name is None else str(name) for name in made_of["names"]]
+            if len(names) != sum(part.size for part in parts):
+                raise SpaceError(f"{len(names)} names")
+            encoder._settle(parts, made_of["thresholds"], names)
+        except Exception as error:  # members of any kind
+            raise SpaceError(f"not the text of an encoder's to_json(): {told(error)}") from error
         return encoder
 
     def __getstate__(self) -> dict[str, Any]:
@@ -267,7 +298,8 @@ class Encoder:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Make it again."""
-        self.__dict__ |= Encoder.from_json(state["made_of"]).__dict__
+        (text,) = pickled(state, "made_of")
+        self.__dict__ |= Encoder.from_json(text).__dict__
 
     def encode(self, observation: Any) -> bytes:
         """Encode one observation.
@@ -356,10 +388,10 @@ class Encoder:
                 indices = indices - self._first
                 if indices.min() >= 0 and indices.max() < len(self._rows):
                     return np.asarray(self._rows[indices])
-        if self._columns and not hasattr(observations, "keys"):
-            rows = zip(*(self._by_name(row).values() for row in observations), strict=True)
-            observations = dict(zip(self._columns, rows, strict=True))
         try:
+            if self._columns and not hasattr(observations, "keys"):
+                rows = zip(*(self._by_name(row).values() for row in observations), strict=True)
+                observations = dict(zip(self._columns, rows, strict=True))
             columns = [part.columns(part.of(observations)) for part in self._parts]
             joined = columns[0] if len(columns) == 1 else np.concatenate(columns, axis=1)
         except PerceptError:

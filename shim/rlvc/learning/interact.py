@@ -14,7 +14,7 @@ from .. import _native
 from ..agent.batch import Batch
 from ..checks import shown
 from ..domains.domain import Domain
-from ..errors import PerceptError
+from ..errors import EnvError, PerceptError
 from .encode import Encoder
 from .environment import Environment
 from .masks import allowed
@@ -190,6 +190,8 @@ def _encoded_all(run: Run, stream: Environment, batch: Any) -> npt.NDArray[Any]:
             if len(percepts) == stream.count:
                 return percepts
     listed = batch if isinstance(batch, list) else stream.split(batch)
+    if len(listed) != stream.count:
+        raise EnvError(f"observations: {len(listed)}, expected {stream.count}")
     return packed(run.encoder, listed, run.agent.domain)
 
 

@@ -68,14 +68,16 @@ def domain_of(encoder: Any) -> Domain:
     -------
     Domain
     """
-    domain = getattr(encoder, "domain", None)
-    if not callable(getattr(encoder, "encode", None)) or not (
-        isinstance(domain, Domain) or hasattr(encoder, "bits")
-    ):
+    try:
+        encode, domain = encoder.encode, getattr(encoder, "domain", None)
+        bits: Any = None if isinstance(domain, Domain) else encoder.bits
+    except Exception:  # it has none, or making it fails
+        encode = None
+    if not callable(encode):
         raise ConfigError(
             f"encoder: {type(encoder).__name__} needs encode(observation), and domain or bits"
         )
-    return domain if isinstance(domain, Domain) else Bits(encoder.bits)
+    return domain if isinstance(domain, Domain) else Bits(bits)
 
 
 def default_config(actions: int, interactions: int, seed: int, changes: dict[str, Any]) -> Config:

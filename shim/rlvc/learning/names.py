@@ -36,11 +36,10 @@ def known_names(env: Any, space: Any) -> list[str] | None:
     -------
     list of str or None
     """
-    spec = getattr(env, "spec", None)
-    match = re.fullmatch(r"(\w+)-v\d+", str(getattr(spec, "id", "")))
-    names = NAMES.get(match[1]) if match else None
-    base = getattr(env, "unwrapped", env)
-    own = getattr(base, "single_observation_space", getattr(base, "observation_space", None))
-    if names is None or space != own:
+    try:
+        match = re.fullmatch(r"(\w+)-v\d+", str(getattr(env.spec, "id", "")))
+        base = env.unwrapped
+        own = getattr(base, "single_observation_space", getattr(base, "observation_space", None))
+        return list(NAMES[match[1]]) if match and match[1] in NAMES and space == own else None
+    except Exception:  # of an environment with neither, or whose own code fails
         return None
-    return list(names)

@@ -14,12 +14,13 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _native
-from ..checks import shown
+from ..checks import listed, one_of, shown, whole
 from ..errors import PerceptError, SpaceError
 
 Array = npt.NDArray[Any]
 _TABLE_MAX = 4096  # percepts of a Discrete that are kept ready
 _SPELLED_MAX = 4  # values of a Discrete that its tests list
+_KINDS = ("number", "numbers", "flags", "reals", "word")
 _FLOAT = struct.Struct("=f")
 _PLAIN_MAX = 1e14  # magnitude of a number that needs no clipping
 _SQUARE_MAX = 0.9 * _native.THRESHOLDS_NUMBER_MAX**2
@@ -60,6 +61,7 @@ class Part:
     words: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        self._check()
         self.size = 1 if self.kind == "word" else math.prod(self.shape)
         self.widths = [width_of(count) for count in self.counts]
         self.width = {"word": len(self.words), "flags": self.size, "reals": self.size}.get(
@@ -69,6 +71,26 @@ class Part:
         self.index_of = {word: i for i, word in enumerate(self.words)}
         self._ready = self.table(True)
 
+    def _check(self) -> None:
+        """Make the fields tuples. Raises SpaceError if one is not as the class says."""
+        one_of("kind", self.kind, _KINDS, SpaceError)
+        self.path = tuple(listed("path", self.path, "keys", SpaceError))
+        self.shape = self._wholes("shape", 0, 2**31 - 1)
+        self.starts = self._wholes("starts", -(2**63), 2**63 - 1)
+        self.counts = self._wholes("counts", 1, 2**63 - 1)
+        self.words = tuple(str(word) for word in listed("words", self.words, "words", SpaceError))
+        ranges = {"number": 1, "numbers": math.prod(self.shape)}.get(self.kind, 0)
+        counts = 1 if self.kind == "word" else ranges
+        if (len(self.starts), len(self.counts)) != (ranges, counts):
+            raise SpaceError(f"{self.kind}: {len(self.counts)} counts, expected {counts}")
+        if any(start + count > 2**63 for start, count in zip(self.starts, self.counts, strict=False)):
+            raise SpaceError(f"{prefix(self.path) or 'space'}: a number beyond 2**63")
+
+    def _wholes(self, field: str, least: int, most: int) -> tuple[int, ...]:
+        numbers = listed(field, getattr(self, field), "int", SpaceError)
+        name = f"{prefix(self.path)}: {field}" if self.path else field
+        return tuple(whole(name, number, least, most, SpaceError) for number in numbers)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the fields, for JSON."""
         return dataclasses.asdict(self)
@@ -76,10 +98,7 @@ class Part:
     @classmethod
     def from_dict(cls, fields: dict[str, Any]) -> Part:
         """Make a part of its fields."""
-        made: dict[str, Any] = {
-            k: tuple(v) if isinstance(v, list) else v for k, v in fields.items()
-        }
-        return cls(**made)
+        return cls(**fields)
 
     # -------------------------------------------------------------- names
 
@@ -129,7 +148,7 @@ class Part:
         try:
             for key in self.path:
                 observation = observation[key]
-        except (KeyError, IndexError, TypeError):
+        except Exception:  # also of a class of the caller
             raise PerceptError(f"an observation without {prefix(self.path)!r}") from None
         return observation
 

@@ -18,7 +18,7 @@ from ..agent.planned_policy import PlannedPolicy
 from ..agent.planner import Planner
 from ..agent.policy import Policy
 from ..agent.results import PlannerStatistics
-from ..checks import one_of
+from ..checks import one_of, pickled
 from ..errors import PerceptError, RunError
 from ..files import replace
 from ..words import explain
@@ -569,7 +569,7 @@ class Run:
         """Make it again."""
         from .store import unpacked
 
-        made = unpacked(state["content"], state["encoder"], state["domain"])
+        made = unpacked(*pickled(state, "content", "encoder", "domain"))
         self.__dict__ |= made.__dict__
 
     def __repr__(self) -> str:
