@@ -11,6 +11,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -195,6 +196,54 @@ def test_a_legend_of_ones_own(tmp_path):
     ):
         done = run("binary", "--maze", "maze.txt", "--legend", legend, cwd=tmp_path)
         check_refused(done, *said)
+
+
+def test_a_legend_without_a_maze(tmp_path):
+    check_refused(run("binary", "--legend", "wall=X,free=o,exit=Z", cwd=tmp_path), "--legend", "--maze")
+
+
+def test_a_maze_from_the_standard_input(tmp_path):
+    done = run("binary", "--maze", "-", "--interactions", "100", "--json", "report.json", cwd=tmp_path,
+               input="..#*\n.#..\n....\n")
+    assert done.returncode == 0, done.stderr
+    assert json.loads((tmp_path / "report.json").read_text())["maze"] == PLAIN
+
+
+@pytest.mark.parametrize("option", ["--json", "--dot", "--export-c"])
+def test_a_dash_is_no_file_that_is_written(tmp_path, option):
+    check_refused(run("binary", option, "-", cwd=tmp_path), option, "'-' is no file name")
+    assert files(tmp_path) == []
+
+
+def test_bags_and_pairs(tmp_path):
+    check_refused(run("tiled", "--bags", "--pairs", cwd=tmp_path), "--bags", "--pairs")
+
+
+def catches(process, number):
+    """Whether a process has a handler for a signal yet."""
+    status = Path(f"/proc/{process.pid}/status").read_text()
+    return int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16) >> (number - 1) & 1
+
+
+@pytest.mark.parametrize("option", ["--json", "--maze"])
+def test_a_pipe_without_another_end_can_be_left(tmp_path, option):
+    """To open one waits; Ctrl-C, or another signal, ends that."""
+    os.mkfifo(tmp_path / "pipe")
+    with subprocess.Popen([PROGRAM, "binary", option, "pipe"], cwd=tmp_path, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as process:
+        while not catches(process, signal.SIGTERM):
+            time.sleep(0.01)
+        for _ in range(1000):  # it may come before the call that waits
+            process.send_signal(signal.SIGTERM)
+            try:
+                process.wait(0.05)
+                break
+            except subprocess.TimeoutExpired:
+                continue
+        else:
+            process.kill()
+        assert process.returncode == 128 + signal.SIGTERM
+        assert process.stderr.read() == "run_gridworld: interrupted after 0 interactions\n"
 
 
 def test_full_tree(tmp_path):

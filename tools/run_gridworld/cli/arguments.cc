@@ -93,6 +93,16 @@ void add_file(CLI::App &app, const std::string &name, std::string &into, const c
     app.add_option(name, into, text)->type_name("FILE")->check(file_name());
 }
 
+void add_output(CLI::App &app, const std::string &name, std::string &into, const char *text) {
+    const auto names_a_file = [](std::string &given) {
+        return given == "-" ? std::string("'-' is no file name") : std::string();
+    };
+    app.add_option(name, into, text)
+        ->type_name("FILE")
+        ->check(file_name())
+        ->check(CLI::Validator(names_a_file, ""));
+}
+
 void add_named(CLI::App &app, const std::string &name, const std::vector<Named> &all, uint8_t &into,
                const char *text) {
     std::vector<std::string> names;

@@ -20,10 +20,11 @@ CLI::Validator number(float low, float high, Interval interval = Interval::close
 CLI::Validator file_name();
 CLI::Validator one_of(const std::vector<std::string> &names);
 
-// Adds an option for a whole number, or for a file name.
+// Adds an option for a whole number, for a file that is read, or for one that is written.
 void add_whole(CLI::App &app, const std::string &name, uint32_t &into, uint64_t low, uint64_t high,
                const char *text);
 void add_file(CLI::App &app, const std::string &name, std::string &into, const char *text);
+void add_output(CLI::App &app, const std::string &name, std::string &into, const char *text);
 
 // A value that has a name on the command line and a number in the library.
 struct Named {

@@ -39,8 +39,8 @@ void add_learning_options(CLI::App &app, LearningOptions &options, const Learnin
     add_whole(app, "--classes", options.classes, 1, classes_max, texts.classes);
     add_whole(app, "--seed", options.seed, 0, UINT32_MAX, "seed of all random numbers (default 1)");
     add_whole(app, "--runs", options.runs, 1, runs_max, texts.runs);
-    add_file(app, "--json", options.json, "write a report (see tools/run_gridworld/REPORT.md)");
-    add_file(app, "--dot", options.dot, texts.dot);
+    add_output(app, "--json", options.json, "write a report (see tools/run_gridworld/REPORT.md)");
+    add_output(app, "--dot", options.dot, texts.dot);
 }
 
 void settle_schedule(LearningOptions &options, const Schedule &defaults) {

@@ -67,10 +67,10 @@ void add_learning(CLI::App &app, Options &options) {
 
 void add_world(CLI::App &app, Options &options) {
     add_file(app, "--maze", options.maze,
-             "'#' wall, '.' free, '*' exit; at most 256 x 256 (default: Sutton's, 9 x 6)");
-    app.add_option(
-           "--legend", options.legend,
-           "signs of the maze, such as wall=#,free=.,exit=* (default: those of its dialect)")
+             "'#' wall, '.' free, '*' exit; at most 256 x 256; -: standard input (default: "
+             "Sutton's, 9 x 6)");
+    app.add_option("--legend", options.legend,
+                   "signs of --maze, such as wall=#,free=.,exit=* (default: those of its dialect)")
         ->type_name("SIGNS");
     app.add_option("--slip", options.slip,
                    "probability that a move goes in another direction (default 0)")
@@ -78,8 +78,8 @@ void add_world(CLI::App &app, Options &options) {
         ->check(number(0, 1));
     add_whole(app, "--distractors", options.distractors, 0, GRIDWORLD_BITS_MAX,
               "irrelevant random bits in each percept (default 11)");
-    add_file(app, "--export-c", options.export_c,
-             "write the minimal policy as a C header; not with --runs");
+    add_output(app, "--export-c", options.export_c,
+               "write the minimal policy as a C header; not with --runs");
 }
 
 void check_combination(const Options &options) {
@@ -89,6 +89,9 @@ void check_combination(const Options &options) {
             throw Failure(tree.option + ": cannot be combined with --runs: it writes the tree of a "
                                         "single run");
         }
+    }
+    if (!options.legend.empty() && options.maze.empty()) {
+        throw Failure("--legend: tells of the signs of --maze, which is missing");
     }
     check_files_differ({{"--json", options.json}, dot, export_c});
 }

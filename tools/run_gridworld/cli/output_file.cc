@@ -2,6 +2,7 @@
 #include "output_file.h"
 
 #include "failure.h"
+#include "interrupt.h"
 
 #include <cerrno>
 #include <climits>
@@ -30,7 +31,9 @@ OutputFile::OutputFile(const std::string &option, const std::string &name)
     struct stat there;
     const bool exists = stat(name.c_str(), &there) == 0;
     if (exists && !S_ISREG(there.st_mode)) {
+        const InterruptibleWait waits;
         file_ = open(name.c_str(), O_WRONLY | O_CLOEXEC);
+        InterruptibleWait::check();
     } else if (exists && access(name.c_str(), W_OK) != 0) {
         fail(errno);
     } else {

@@ -10,7 +10,7 @@
 class OutputFile {
   public:
     // Opens the file for writing; call it before the work, so that a wrong name fails early. An
-    // empty name means no file. Throws Failure, whose message names `option`.
+    // empty name means no file. Throws Failure, whose message names `option`, or Interrupted.
     OutputFile(const std::string &option, const std::string &name);
     ~OutputFile();
     OutputFile(const OutputFile &) = delete;

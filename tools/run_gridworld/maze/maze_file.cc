@@ -2,6 +2,7 @@
 #include "maze_file.h"
 
 #include "../cli/failure.h"
+#include "../cli/interrupt.h"
 #include "dialect.h"
 
 #include <cerrno>
@@ -17,10 +18,12 @@ constexpr std::size_t room = GRIDWORLD_SIDE_MAX * (4 * GRIDWORLD_SIDE_MAX + 2) +
 
 std::string read_all(const std::string &file) {
     errno = 0;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE *)> in(std::fopen(file.c_str(), "rb"),
-                                                              std::fclose);
+    const InterruptibleWait waits;
+    const char *name = file == "-" ? "/dev/stdin" : file.c_str();
+    const std::unique_ptr<std::FILE, int (*)(std::FILE *)> in(std::fopen(name, "rb"), std::fclose);
     std::string text(room, '\0');
     const std::size_t bytes = in ? std::fread(text.data(), 1, room, in.get()) : 0;
+    InterruptibleWait::check();
     if (!in || std::ferror(in.get())) {
         throw Failure("--maze: cannot read '" + file + "': " + std::strerror(errno));
     }

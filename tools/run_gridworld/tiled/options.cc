@@ -73,10 +73,10 @@ void add_angles(CLI::App &app, const std::string &name, std::vector<int> &into, 
 }
 
 void add_world(CLI::App &app, TiledOptions &options) {
-    app.add_option("--images", options.images,
-                   "pictures of objects: files objN__ANGLE.*, as in COIL-100; or one file for each "
-                   "object; or "
-                   "one folder for each, with pictures of its poses 0, 1, ... (built-in objects)")
+    app.add_option(
+           "--images", options.images,
+           "pictures of objects: files objN__ANGLE.*, as in COIL-100; or a file, or a folder "
+           "of poses, for each (built-in objects)")
         ->type_name("DIR")
         ->check(file_name());
     add_whole(app, "--resize", options.side, 8, 4096,
@@ -133,17 +133,16 @@ void add_seeing(CLI::App &app, TiledOptions &options) {
            "--raw-light", [&options] { options.normalise = false; },
            "do not normalise the light of pictures")
         ->disable_flag_override();
-    CLI::Option *pairs = app.add_flag_callback(
-                                "--pairs", [&options] { options.pairs = true; },
-                                "also try as many features of two points")
-                             ->disable_flag_override();
+    app.add_flag_callback(
+           "--pairs", [&options] { options.pairs = true; },
+           "also try as many features of two points; not with --bags")
+        ->disable_flag_override();
     app.add_flag_callback(
            "--bags", [&options] { options.bags = true; },
            "features are bags of vectors of which a part is enough")
-        ->disable_flag_override()
-        ->excludes(pairs);
+        ->disable_flag_override();
     add_file(app, "--metric", options.metric, "use this metric instead of fitting one");
-    add_file(app, "--save-metric", options.save_metric, "write the metric");
+    add_output(app, "--save-metric", options.save_metric, "write the metric");
 }
 
 void settle_seeing(TiledOptions &options) {
@@ -187,9 +186,12 @@ bool read_tiled_options(int argc, char **argv, TiledOptions &options) {
     add_learning_options(app, options, tiled_texts);
     add_world(app, options);
     add_seeing(app, options);
-    add_file(app, "--snapshot", options.snapshot, "write the agent of the first run");
+    add_output(app, "--snapshot", options.snapshot, "write the agent of the first run");
     if (!parse(app, argc, argv)) {
         return false;
+    }
+    if (options.pairs && options.bags) {
+        throw Failure("--bags: cannot be combined with --pairs");
     }
     check_files_differ({{"--save-metric", options.save_metric},
                         {"--json", options.json},
