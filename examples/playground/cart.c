@@ -13,6 +13,8 @@
 
 #include "rlvc/rlvc.h"
 
+#define PUSH_MAX 100.0f
+
 /* Read by the page as 32-bit numbers, in this order. */
 struct view {
     float state[CART_POLE_COMPONENTS]; /* of the cart that is shown */
@@ -83,9 +85,12 @@ EXPORT(cart_show) void cart_show(void) {
     }
 }
 
-/* Pushes the pole that is shown. @param speed in rad/s */
+/* Pushes the pole that is shown. @param speed in rad/s; nothing happens beyond +-PUSH_MAX, or if it
+ * is NaN */
 EXPORT(cart_push) void cart_push(float speed) {
-    lab.shown.state[3] += speed;
+    if (speed >= -PUSH_MAX && speed <= PUSH_MAX) {
+        lab.shown.state[3] += speed;
+    }
 }
 
 EXPORT(cart_view) const struct view *cart_view(void) {

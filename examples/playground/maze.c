@@ -175,7 +175,9 @@ int maze_new(int returns, uint32_t distractors, float slip, float epsilon, uint3
 /* Writes what is wrong with the maze, and returns the line (0: all of it). */
 EXPORT(maze_fault) uint32_t maze_fault(void) {
     text_begin();
-    (void)text_write(NULL, lab.error.what, __builtin_strlen(lab.error.what));
+    if (lab.error.what) {
+        (void)text_write(NULL, lab.error.what, __builtin_strlen(lab.error.what));
+    }
     return lab.error.line;
 }
 
@@ -228,8 +230,11 @@ static int learn(void) {
 }
 
 /* Does at most so many interactions, and stops where an episode ends or a learning step begins; or
- * does a slice of one. */
+ * does a slice of one. TICK_FAILED: there is no agent, as maze_new failed or was not called. */
 EXPORT(maze_tick) int maze_tick(uint32_t count) {
+    if (!lab.agent) {
+        return TICK_FAILED;
+    }
     while (!lab.view.learning && count-- > 0) {
         const int over = interact();
         lab.view.learning = lab.view.interactions >= interactions_until(lab.view.step);
@@ -299,9 +304,13 @@ static void look(void) {
     lab.view.mean = mean_of(lab.values);
 }
 
-/* A percept of a cell, of view.bits bits; other distractors for another draw. */
+/* A percept of a cell, of view.bits bits; other distractors for another draw. Null if there is no
+ * such cell. */
 EXPORT(maze_percept) const unsigned char *maze_percept(uint32_t cell, uint32_t draw) {
     gridworld_random random;
+    if (!lab.agent || cell >= lab.maze.width * lab.maze.height) {
+        return NULL;
+    }
     gridworld_random_seed(&random, draw);
     gridworld_encode(&lab.maze, lab.world.distractors, cell, &random, lab.percept);
     return lab.percept;
@@ -322,7 +331,9 @@ static rlvc_policy *make_policy(void) {
     size_t bytes = 0;
     void *block;
     text_begin();
-    (void)rlvc_policy_default(lab.agent, &config);
+    if (rlvc_policy_default(lab.agent, &config) != RLVC_OK) {
+        return NULL; /* there is no agent */
+    }
     config.effort = POLICY_EFFORT;
     (void)rlvc_policy_size(lab.agent, &config, &bytes);
     block = memory_take(bytes);

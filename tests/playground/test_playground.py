@@ -99,6 +99,13 @@ def test_same_tree_under_node(folder, case):
     assert result["c"] in ("", header)
 
 
+def test_whatever_is_called(folder):
+    """The module is not harmed by any call, before there is a maze or after one was refused, too."""
+    done = subprocess.run(["node", HERE / "attack.js", folder, "20000"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert min(json.loads(done.stdout).values()) > 100
+
+
 def test_module_is_small(folder):
     assert len(gzip.compress((folder / "rlvc.wasm").read_bytes(), 9)) <= 60 * 1024
 
