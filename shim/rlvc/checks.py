@@ -48,7 +48,7 @@ def named(path: Any) -> str:
     -------
     str
     """
-    return f"{path!s:.300}" if isinstance(path, str | Path) else shown(path)
+    return f"{path!s:.300}" if isinstance(path, str | Path) and str(path) else shown(path)
 
 
 def one_of(name: str, value: Any, words: Iterable[str], error: type[Error] = ConfigError) -> str:

@@ -153,6 +153,33 @@ def replace(path: str | Path, content: bytes) -> None:
         raise StoreError(f"{named(path)}: cannot be written: {error.strerror}") from error
 
 
+def check_place(path: str | Path) -> None:
+    """Raise what :func:`replace` would raise, so that it is known before there is something to write.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Raises
+    ------
+    StoreError
+        A file could not be written there now.
+    """
+    try:
+        name = name_of(path)
+        folder = os.path.dirname(name) or "."
+        if not stat.S_ISDIR(os.stat(folder).st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise PermissionError(errno.EACCES, "its folder is write-protected")
+        with contextlib.suppress(FileNotFoundError):
+            _need_file(os.stat(name, follow_symlinks=False).st_mode)
+            if not os.access(name, os.W_OK):
+                raise PermissionError(errno.EACCES, "it is write-protected")
+    except OSError as error:
+        raise StoreError(f"{named(path)}: cannot be written: {error.strerror}") from error
+
+
 def _replace(path: str | Path, content: bytes) -> None:
     where, name = os.path.split(name_of(path))
     folder = os.open(where or ".", os.O_RDONLY | os.O_DIRECTORY)

@@ -238,6 +238,42 @@ def test_logs_are_shown_and_converted(tmp_path, capsys):
     assert "5 interactions are left out" in capsys.readouterr().err
 
 
+LOG = "x,a,r,done\n" + "1,0,0,1\n1,1,1,1\n" * 20
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["learn", "log.csv", "--json", "log.csv"], "--json: log.csv is also the log"),
+        (["learn", "log.csv", "--save", "./log.csv"], "--save: ./log.csv is also the log"),
+        (["learn", "log.csv", "--c", "link.csv"], "it is a link, not a file"),
+        (["learn", "log.csv", "--c", "a", "--json", "a"], "--c: a is also the file of --json"),
+        (["learn", "log.csv", "--save", ""], "'': cannot be written: not the name of a file"),
+        (["learn", "FrozenLake-v1", "--save", "no/run"], "no/run: cannot be written: No such file or directory"),
+        (["learn", "FrozenLake-v1", "--json", "folder"], "folder: cannot be written: it is a folder, not a file"),
+        (["learn", "FrozenLake-v1", "--c", "folder/old/x"], "folder/old/x: cannot be written: Not a directory"),
+        (["learn", "FrozenLake-v1", "--save", "pipe"], "pipe: cannot be written: it is a FIFO, not a file"),
+        (["fleet", "learn", "log.csv", "--save", "log.csv"], "--save: log.csv is also the log"),
+        (["convert", "log.csv", "other.csv"], "other.csv: is written, so that its name has to end in .npz"),
+        (["convert", "log.csv", "no/log.npz"], "no/log.npz: cannot be written: No such file or directory"),
+    ],
+)  # fmt: skip
+def test_files_are_checked_before_the_work(arguments, said, tmp_path, monkeypatch, capsys):
+    """What takes hours must not end by the name of a file, nor replace its own log."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("log.csv", "other.csv", "folder/old"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(LOG, encoding="utf-8")
+    (tmp_path / "link.csv").symlink_to("log.csv")
+    os.mkfifo(tmp_path / "pipe")
+    monkeypatch.setattr("rlvc.cli.commands.learn", None)  # is not called
+    before = sorted(path.name for path in tmp_path.rglob("*"))
+    assert command.main(arguments) == 1
+    assert said in capsys.readouterr().err
+    assert sorted(path.name for path in tmp_path.rglob("*")) == before
+    assert {(tmp_path / name).read_text() for name in ("log.csv", "other.csv")} == {LOG}
+
+
 def test_several_files_of_logs(tmp_path, capsys):
     """Files are told from environments, and learnt from as one log."""
     files = []

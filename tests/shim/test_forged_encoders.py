@@ -100,11 +100,12 @@ def test_a_pickle_of_an_encoder():
 @pytest.mark.parametrize("kind", ["Numbers", "Flags", "Number", "Word", "Named", "Columns"])
 def test_spaces_of_logs_of_odd_sizes(kind):
     """Also ones too large to be kept: they are counted before anything is made for each number."""
+    values = (*HOSTILE, (10**9, 10**9), (-1,), ("a",), (1.5,), {"a": 5}, object())
     taken = 0
-    for value in (*HOSTILE, (10**9, 10**9), (-1,), ("a",), (1.5,), {"a": 5}, object()):
+    for value in values:
         make = getattr(rlvc.encode, kind)
         taken += answer(errors.SpaceError, lambda v=value, m=make: rlvc.Encoder(m(v))) is not None
-    assert taken <= 6
+    assert taken < len(values) // 2
 
 
 def test_thresholds_are_checked_for_bits_too():

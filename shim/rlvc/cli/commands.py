@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import argparse
 import ast
+import contextlib
 import io
 import json
+import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -38,6 +40,8 @@ _IDLE = {
     "logs": (*_OF_FRAMES, *_OF_ENV),
     "--frames": (*_OF_ENV, "columns", "history", "names", "seeds", "thresholds"),
 }
+_WRITTEN = ("save", "json", "c", "save_metric")
+_PRINTED = ("json", "c")  # where the file is '-'
 INTERRUPTED = 130  # exit status: 128 and the number of the signal
 
 
@@ -115,9 +119,30 @@ def _is_log(name: str) -> bool:
     return Path(name).exists() or Path(name).suffix.lower() in (*logs.SUFFIXES, *others)
 
 
+def _check_written(arguments: argparse.Namespace, read: list[str]) -> None:
+    """Raise, before the work, if a file could not be written after it, or would replace another one."""
+    taken = {_place(name): "the log" for name in read}
+    for name in _WRITTEN:
+        file, option = getattr(arguments, name, None), f"--{name.replace('_', '-')}"
+        if file is None or (file == "-" and name in _PRINTED):
+            continue
+        files.check_place(file)
+        if _place(file) in taken:
+            raise ConfigError(f"{option}: {file} is also {taken[_place(file)]}")
+        taken[_place(file)] = f"the file of {option}"
+
+
+def _place(name: str) -> str:
+    """The path of a file without links, also of what is no name."""
+    with contextlib.suppress(OSError, ValueError):
+        return os.path.realpath(name)
+    return name
+
+
 def learn_command(arguments: argparse.Namespace) -> int:
     """Learn, write and print what was learnt."""
     _sort_out(arguments)
+    _check_written(arguments, arguments.log or [])
     if arguments.seeds is not None:
         return _learn_often(arguments)
     env = None
@@ -335,6 +360,9 @@ def log_command(arguments: argparse.Namespace) -> int:
 
 def convert_command(arguments: argparse.Namespace) -> int:
     """Write a log as NPZ."""
+    if not arguments.to.endswith(".npz"):  # as it may be another log
+        raise ConfigError(f"{arguments.to}: is written, so that its name has to end in .npz")
+    files.check_place(arguments.to)
     log = logs.read(arguments.log, **{name: getattr(arguments, name) for name in _LOG_OPTIONS})
     if log.record_bytes:
         raise ConfigError(
@@ -365,6 +393,8 @@ def _plain(values: Any) -> Any:
 
 def fleet_command(arguments: argparse.Namespace) -> int:
     """Learn from the logs of many machines."""
+    if arguments.verb == "learn":
+        _check_written(arguments, arguments.source)
     run = fleet.run(arguments)
     if run is not None:
         _keep(run, None, arguments)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ..checks import shown
 from ..errors import LogError
 from ..files import checked_name
 from . import layout
@@ -20,6 +21,8 @@ def filesystem_of(path: str) -> tuple[Any, str]:
     """
     pa = layout.arrow()
     checked_name("source", path, LogError)
+    if any("\ud800" <= sign <= "\udfff" for sign in path):
+        raise LogError(f"source: {shown(path)}: Arrow knows no name that is not UTF-8")
     if "://" not in path:
         return pa.fs.LocalFileSystem(), path
     try:
