@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Arm Cortex-M7 with a floating-point unit: QEMU's MPS2 board AN500.
 set(rlvc_triple arm-none-eabi)
+set(RLVC_FLOATING_POINT ON)
 set(rlvc_machine "-mthumb -mcpu=cortex-m7 -mfloat-abi=hard -mfpu=fpv5-d16")
 set(rlvc_flash 0x0)
 set(rlvc_flash_size 0x400000)
