@@ -51,7 +51,7 @@ right = GRID * thirds(widths) + thirds(middles)
 pairs = [(found.view(t, 0), found.view(t, angle), "views") for t in things for angle in LEARNT[1:]]
 pairs += [(found.view(t, 0), disturbed(found.view(t, 0)), "copies") for t in things]
 metric = vision.Metric.fit(
-    [found.view(t, 0) for t in things], pairs=pairs, kind="discriminant", axes=16, share=0.1
+    [found.view(t, 0) for t in things], pairs=pairs, kind="discriminant", axes=16, share=0.035
 )
 eye = vision.Eye(vision.Extractor(metric=metric, form="int8"))
 agent = rlvc.Agent(
