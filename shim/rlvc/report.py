@@ -2,12 +2,13 @@
 """Reports: a run as JSON, which ``rlvc.plot`` draws.
 
 ``run_gridworld --json`` writes reports, too; ``tools/run_gridworld/REPORT.md`` describes their
-members. A report of :func:`make` has the kind ``"rlvc learn"`` and the members ``seed``,
-``interactions``, ``classes``, ``depth``, ``last_split_step``, ``memory_bytes``, ``history`` (with
-``mean_return`` in place of ``optimal_cells``), ``names`` (of the bits or components), ``flags``
-(which of them are 0 or 1), ``actions`` (their names, unless they are plain numbers), ``tree``, and
-``warning``: why nothing was learnt, empty if something was. Of a planner or a compact policy it has
-neither ``depth`` nor ``last_split_step``, and its tree has no values.
+members. A report of :func:`make` has the kind ``"rlvc learn"`` and the members ``method``
+(``"classes"``, or ``"planner"``: then ``classes`` counts leaves), ``seed``, ``interactions``,
+``classes``, ``depth``, ``last_split_step``, ``memory_bytes``, ``history`` (with ``mean_return`` in
+place of ``optimal_cells``), ``names`` (of the bits or components), ``flags`` (which of them are 0 or
+1), ``actions`` (their names, unless they are plain numbers), ``tree``, and ``warning``: why nothing
+was learnt, empty if something was. Of a planner or a compact policy it has neither ``depth`` nor
+``last_split_step``, and its tree has no values.
 The Binary Gridworld adds ``maze``, ``cells``, ``cell_classes`` and ``cell_actions``. The Tiled
 Gridworld with an :class:`rlvc.vision.Eye` adds ``maze``, ``cells``, ``cell``, ``objects`` and
 ``tests``: of a bag, ``object`` and ``angle`` are those of the picture that has most of it.
@@ -196,6 +197,7 @@ def make(run: Any, env: Any = None) -> dict[str, Any]:
     return {
         "version": VERSION,
         "kind": "rlvc learn",
+        "method": "classes" if isinstance(run.learner, Agent) else "planner",
         "seed": run.seed,
         "interactions": run.interactions,
         "classes": run.leaves,

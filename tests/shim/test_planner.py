@@ -256,7 +256,7 @@ def test_figures():
     run = rlvc.learn(Drift(), 600, seed=1)
     for source, action in ((run, 6), (run.planner, 1), (run.policy(), 1)):
         assert f"action {action}" in plot.tree(source).source
-    plot.learning_curve(run)
+    assert plot.learning_curve(run).axes[0].get_ylabel() == "leaves"
     with pytest.raises(errors.RunError, match="planner"):
         plot.splits(run)
 

@@ -255,6 +255,7 @@ def test_a_log_is_learnt_in_one_step():
 
 def test_several_runs(made):
     figure = plot.learning_curve({"version": 1, "runs": [made, made]})
+    assert figure.axes[0].get_ylabel() == "classes"
     assert "2 runs" in figure.axes[0].get_title(loc="left")
 
 

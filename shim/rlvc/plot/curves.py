@@ -18,7 +18,7 @@ from .drawing import BLUE, GREY, ORANGE, Source, axes_of, explained, need, repor
 def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
     """Draw the number of classes, and of optimal cells or the mean return, over interactions.
 
-    Needs ``history``. All runs of a report are drawn.
+    Of a planner it is the number of leaves. Needs ``history``. All runs of a report are drawn.
     """
     runs = [need(run, "history") for run in reports(source)]
     if not runs[0]["history"]:
@@ -47,7 +47,7 @@ def learning_curve(source: Source, file: str | Path | None = None) -> Figure:
             marker="o" if len(runs) == 1 else None,
             markersize=3.5,
         )
-    upper.set_ylabel("classes")
+    upper.set_ylabel("leaves" if runs[0].get("method") == "planner" else "classes")
     lower.set_ylabel("optimal cells" if optimal else "mean return while learning")
     lower.set_xlabel("interactions")
     if optimal and "cells" in runs[0]:
