@@ -286,3 +286,14 @@ def test_interrupted_before_the_first_learning_step():
     assert run.warning.startswith("nothing was learnt: the first learning step was not reached")
     assert run.text().endswith(f"{run.warning}\n")
     assert rlvc.learn(Line(), 1000, seed=1, run=run).warning == ""
+
+
+def test_a_tree_without_a_reward_says_so():
+    """What follows the actions makes classes before there is a reward; the policy is still arbitrary."""
+    env = gymnasium.make("FrozenLake-v1")
+    run = rlvc.learn(env, 4000, epsilon=0.5, seed=2)
+    assert run.leaves > 1
+    assert not run.learner.values.any()
+    assert run.text().splitlines()[-1] == run.warning
+    assert run.warning.startswith("no reward other than 0 was seen")
+    assert rlvc.learn(env, 8000, seed=1).warning == ""

@@ -48,6 +48,12 @@ _UNSOLVED = {
 }
 
 
+_UNREWARDED = (
+    "no reward other than 0 was seen, so that all actions are worth the same: give more interactions, "
+    "or explore more (epsilon)"
+)
+
+
 def _warning(statistics: PlannerStatistics) -> str:
     """Why a planner has learnt nothing; empty if it has learnt something."""
     if statistics.episodes == 1 and statistics.verdict == "no_difference":
@@ -180,7 +186,7 @@ class Run:
         if self.learner.statistics.solution != "converged":
             return _UNSOLVED[self.learner.statistics.solution]
         if self.learner.classes > 1:
-            return ""
+            return "" if self.learner.values.any() else _UNREWARDED
         if self.interrupted and self.learner.statistics.step == 0:
             return "nothing was learnt: the first learning step was not reached: give a smaller every"
         return "one class: no difference in rewards or in what follows was found"
