@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "../domains/runs.h"
 #include "rlvc/agent.h"
 #include "rlvc/bags.h"
 #include "rlvc/thresholds.h"
@@ -414,6 +415,16 @@ static void test_short_runs(void **state) {
     assert_int_equal(written, 0);
 }
 
+/* Numbers in a row are scattered evenly, as if drawn: a twentieth is four deviations. */
+static void test_scatter(void **state) {
+    (void)state;
+    uint32_t count[64] = {0};
+    for (uint32_t i = 0; i < 64u * 4096u; i++)
+        count[rlvc_scatter(i) % 64u]++;
+    for (uint32_t k = 0; k < 64u; k++)
+        assert_in_range(count[k], 3800, 4400);
+}
+
 /* ------------------------------------------------------------------ what is refused */
 
 static void test_damaged_percepts(void **state) {
@@ -689,6 +700,7 @@ int main(void) {
         cmocka_unit_test(test_actions),
         cmocka_unit_test(test_noise),
         cmocka_unit_test(test_short_runs),
+        cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_the_bar_is_exact),
         cmocka_unit_test(test_things_behind),
         cmocka_unit_test(test_weigh),

@@ -31,15 +31,20 @@ static void carve_all(rlvc_arena *arena, uint32_t components, uint32_t actions, 
     sample.row = rlvc_arena_carve(arena, room, sizeof *sample.row);
 }
 
-static void make(uint32_t components, uint32_t actions, uint32_t room) {
+/* In memory that held so many bytes of one kind. */
+static void make_in(int byte, uint32_t components, uint32_t actions, uint32_t room) {
     rlvc_arena arena = {NULL, 0};
     memset(&sample, 0, sizeof sample);
     carve_all(&arena, components, actions, room);
     assert_true(arena.used <= sizeof block);
-    block_fill(block, 0, sizeof block);
+    block_fill(block, byte, sizeof block);
     arena.base = (unsigned char *)block;
     arena.used = 0;
     carve_all(&arena, components, actions, room);
+}
+
+static void make(uint32_t components, uint32_t actions, uint32_t room) {
+    make_in(0, components, actions, room);
 }
 
 static uint64_t fit_model(uint32_t seed, uint32_t budget) {
@@ -279,6 +284,57 @@ static void test_slices_change_nothing(void **state) {
         assert_memory_equal(nodes[i], nodes[0], sizeof nodes[0]);
         assert_memory_equal(coefficients[i], coefficients[0], sizeof coefficients[0]);
         assert_true(work[i] == work[0]);
+    }
+}
+
+/* Nor does what the memory held before: also the places of a model that mean nothing are saved. */
+static void test_memory_changes_nothing(void **state) {
+    (void)state;
+    static rlvc_dynamics first;
+    static uint64_t other[sizeof block / sizeof *block];
+    make(2, 3, 700);
+    draw_world(1000, 5, 0, bent); /* its reward is constant */
+    fit_model(9, UINT32_MAX);
+    first = model;
+    block_copy(other, block, sizeof block);
+    make_in(0xa5, 2, 3, 700);
+    draw_world(1000, 5, 0, bent);
+    fit_model(9, UINT32_MAX);
+    for (uint32_t k = 0; k <= 2; k++) {
+        const rlvc_model_tree *tree = &model.tree[k];
+        const ptrdiff_t node = (unsigned char *)tree->node - (unsigned char *)block;
+        const ptrdiff_t leaf = (unsigned char *)tree->leaf - (unsigned char *)block;
+        assert_true(block_equal(tree->node, (unsigned char *)other + node,
+                                (2u * tree->leaves - 1u) * sizeof *tree->node));
+        assert_true(block_equal(tree->leaf, (unsigned char *)other + leaf,
+                                tree->leaves * sizeof *tree->leaf));
+    }
+    assert_memory_equal(&model.ending.node[0], &first.ending.node[0], sizeof model.ending.node[0]);
+}
+
+/* A leaf's range is that of its rows, whichever row is the least: a reward's as it is, that of a
+ * component widened by half. In units of the target's deviation, about its mean. */
+static void test_ranges_of_leaves(void **state) {
+    (void)state;
+    for (uint32_t seed = 1; seed <= 30; seed++) {
+        make(2, 3, 100);
+        draw_world(20, seed, 0, smooth);
+        fit_model(seed, UINT32_MAX);
+        for (uint32_t k = 0; k <= 2; k++) {
+            const rlvc_model_tree *tree = &model.tree[k];
+            const float slack = k < 2 ? 0.5f : 0.0f;
+            float least = INFINITY, most = -INFINITY;
+            for (uint32_t i = 0; i < sample.going; i++) {
+                const float y = rlvc_fit_target(&ring, k, sample.row[i]);
+                least = fminf(least, y);
+                most = fmaxf(most, y);
+            }
+            assert_int_equal(tree->leaves, 1);
+            assert_true(fabsf(tree->mean + tree->scale * tree->leaf[0].low -
+                              (least - slack * (most - least))) < 1e-4f);
+            assert_true(fabsf(tree->mean + tree->scale * tree->leaf[0].high -
+                              (most + slack * (most - least))) < 1e-4f);
+        }
     }
 }
 
@@ -533,6 +589,8 @@ int main(void) {
         cmocka_unit_test(test_many_rows_and_many_leaves),
         cmocka_unit_test(test_few_values),
         cmocka_unit_test(test_slices_change_nothing),
+        cmocka_unit_test(test_memory_changes_nothing),
+        cmocka_unit_test(test_ranges_of_leaves),
         cmocka_unit_test(test_deviations_are_about_the_mean),
         cmocka_unit_test(test_long_bases),
         cmocka_unit_test(test_endings_are_found),

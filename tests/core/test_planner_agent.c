@@ -85,6 +85,22 @@ static void test_distances_end(void **state) {
     }
 }
 
+/* A tree that was found or chosen is acted by; what explores is not. */
+static void test_what_is_exploited(void **state) {
+    (void)state;
+    rlvc_config config = small_config();
+    rlvc_planner *planner = make(&config, memory);
+    const float percept[2] = {0.25f, -0.5f};
+    rlvc_choice choice;
+    assert_int_equal(rlvc_begin(as_agent(planner), percept), RLVC_OK);
+    rlvc_small_tree_constant(&planner->acting.tree, 0);
+    for (uint8_t why = RLVC_PLANNER_RANDOM; why <= RLVC_PLANNER_AGAIN; why++) {
+        planner->acting.why = why;
+        assert_int_equal(rlvc_act(as_agent(planner), &choice), RLVC_OK);
+        assert_int_equal(choice.exploited, why == RLVC_PLANNER_NEW || why == RLVC_PLANNER_AGAIN);
+    }
+}
+
 /* ------------------------------------------------------------------ as a policy by itself */
 
 static char text[4000];
@@ -316,15 +332,11 @@ static void test_calls_from_callbacks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_first_percepts_for_ever),
-        cmocka_unit_test(test_counts_end),
-        cmocka_unit_test(test_distances_end),
-        cmocka_unit_test(test_the_policy_alone),
-        cmocka_unit_test(test_no_policy),
-        cmocka_unit_test(test_the_tree_is_the_policy),
-        cmocka_unit_test(test_another_method),
-        cmocka_unit_test(test_without_a_table),
-        cmocka_unit_test(test_calls_from_callbacks),
+        cmocka_unit_test(test_first_percepts_for_ever), cmocka_unit_test(test_counts_end),
+        cmocka_unit_test(test_distances_end),           cmocka_unit_test(test_what_is_exploited),
+        cmocka_unit_test(test_the_policy_alone),        cmocka_unit_test(test_no_policy),
+        cmocka_unit_test(test_the_tree_is_the_policy),  cmocka_unit_test(test_another_method),
+        cmocka_unit_test(test_without_a_table),         cmocka_unit_test(test_calls_from_callbacks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

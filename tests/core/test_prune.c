@@ -77,9 +77,7 @@ static void live(rlvc_agent *agent, uint32_t bits, int third) {
     check_all(agent);
 }
 
-/* An agent that has learnt to tell all percepts apart, since when the world has changed: only bit 2
- * matters. */
-static rlvc_agent *make(int third) {
+static rlvc_agent *make_new(void) {
     rlvc_domain domain;
     rlvc_config config;
     rlvc_agent *agent;
@@ -88,6 +86,13 @@ static rlvc_agent *make(int third) {
     config.capacity = CAPACITY;
     config.classes = 16;
     assert_int_equal(rlvc_agent_init(&config, &domain, block, sizeof block, &agent), RLVC_OK);
+    return agent;
+}
+
+/* An agent that has learnt to tell all percepts apart, since when the world has changed: only bit 2
+ * matters. */
+static rlvc_agent *make(int third) {
+    rlvc_agent *agent = make_new();
     live(agent, 3, third);
     assert_int_equal(agent->tree.classes, 8);
     live(agent, 1, third);
@@ -124,6 +129,23 @@ static void test_a_world_that_changed(void **unused) {
     assert_int_equal(statistics.classes, 1);
     assert_int_equal(statistics.depth, 0);
     assert_int_equal(statistics.last_split, 0);
+}
+
+/* The step of the newest split that is left: here of all, as there was nothing to learn before. */
+static void test_the_newest_split(void **unused) {
+    (void)unused;
+    rlvc_statistics statistics;
+    rlvc_split split;
+    rlvc_agent *agent = make_new();
+    live(agent, 0, 0);
+    assert_int_equal(agent->tree.classes, 1);
+    live(agent, 3, 0);
+    live(agent, 1, 0);
+    assert_int_equal(prune(agent, 0.0f, 4.0f), 6);
+    assert_int_equal(rlvc_split_at(agent, 0, &split, NULL), RLVC_OK);
+    assert_true(split.step > 0);
+    assert_int_equal(rlvc_stats(agent, &statistics), RLVC_OK);
+    assert_int_equal(statistics.last_split, split.step);
 }
 
 /* What was tried on one side only tells them apart; so does another greedy action. */
@@ -211,11 +233,9 @@ static void test_refusals(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_world_that_changed),
-        cmocka_unit_test(test_what_stays),
-        cmocka_unit_test(test_few_samples),
-        cmocka_unit_test(test_in_the_maze),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_a_world_that_changed), cmocka_unit_test(test_the_newest_split),
+        cmocka_unit_test(test_what_stays),           cmocka_unit_test(test_few_samples),
+        cmocka_unit_test(test_in_the_maze),          cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

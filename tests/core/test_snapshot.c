@@ -440,7 +440,7 @@ static void test_unsound_phases(void **state) {
         assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
         assert_int_equal(rlvc_save(p.agent, &store), RLVC_OK);
         const uint32_t learner = AT_SLOTS + 4u + 8u + 12u * 4u + EXPLORER_BYTES(1u);
-        for (uint32_t phase = 1; phase < 11; phase++)
+        for (uint32_t phase = 1; phase <= RLVC_PHASE_INFLUENCE + 1u; phase++)
             assert_int_equal(load_forged(&store, learner, phase, 1), RLVC_E_DAMAGED);
     }
 }
