@@ -20,8 +20,8 @@ static inline float any_real(float low, float high) {
 }
 
 static inline void any_bytes(void *bytes, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
-        ((unsigned char *)bytes)[i] = (unsigned char)Frama_C_unsigned_char_interval(0, 255);
+    if (count > 0)
+        Frama_C_make_unknown((char *)bytes, count);
 }
 
 #endif

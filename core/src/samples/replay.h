@@ -45,6 +45,7 @@ void rlvc_replay_carve(rlvc_replay *replay, rlvc_arena *arena, const rlvc_config
 /* The slot at a position in [0, count). O(1). */
 static inline uint32_t rlvc_replay_slot(const rlvc_replay *replay, uint32_t position) {
     uint32_t to_end = replay->slots - replay->head;
+    //@ split to_end;
     return position < to_end ? replay->head + position : position - to_end;
 }
 

@@ -158,8 +158,9 @@ rlvc_status rlvc_chi2_critical(float p, uint32_t degrees, float *statistic) {
     float wanted = rlvc_ln(p);
     uint32_t above = rlvc_bits_of(0.0f);
     uint32_t below = rlvc_bits_of(1024.0f);
+    //@ loop widen_hints "all", 1149239297;
     while (below - above > 1u) {
-        uint32_t middle = above + (below - above) / 2u;
+        uint32_t middle = above / 2u + below / 2u + (above & below & 1u);
         float its_p;
         float its_log_p;
         survival(rlvc_float_of(middle), degrees, &its_p, &its_log_p);

@@ -48,7 +48,7 @@ static uint32_t last_at(const rlvc_agent *agent) {
     }
 }
 
-/* Does the config have such a phase? */
+/* Does the config have this phase? */
 static int phase_is_possible(const rlvc_agent *agent) {
     int incremental = rlvc_is_incremental(&agent->config);
     switch (agent->learner.phase) {
@@ -63,7 +63,7 @@ static int phase_is_possible(const rlvc_agent *agent) {
     case RLVC_PHASE_SUCCESSORS:
         return agent->config.successors && agent->config.criterion == RLVC_CRITERION_RESIDUAL;
     default:
-        return agent->learner.phase <= RLVC_PHASE_FINISH;
+        return 1;
     }
 }
 
@@ -121,8 +121,10 @@ static int search_is_sound(const rlvc_agent *agent) {
 
 int rlvc_cursor_marks_check(const rlvc_agent *agent) {
     const rlvc_learner *learner = &agent->learner;
-    if (!phase_is_possible(agent) || !pending_is_sound(agent))
+    if (learner->phase > RLVC_PHASE_INFLUENCE || !phase_is_possible(agent) ||
+        !pending_is_sound(agent))
         return 0;
+    //@ split learner->phase;
     if (learner->phase == RLVC_PHASE_IDLE)
         return agent->replay.frozen == 0;
     return counts_are_sound(agent) && search_is_sound(agent) && database_is_sound(agent) &&
