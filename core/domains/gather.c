@@ -22,7 +22,7 @@
 #include <string.h>
 
 #define ROUNDS 2u
-#define POOL 64u  /* vectors among which those of a bag are chosen */
+#define POOL 128u /* vectors among which those of a bag are chosen */
 #define NEAR 8u   /* percepts that they come from */
 #define RUN 64u   /* percepts of the run that are measured, at most; */
 #define RARE 64u  /* of the others, where vectors are chosen; */

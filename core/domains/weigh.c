@@ -14,7 +14,7 @@
 
 #include "bag.h"
 
-#define LEFT 0.6f
+#define LEFT 0.4f
 #define RATIO_MAX 4.0f
 
 static float lesser(float a, float b) {

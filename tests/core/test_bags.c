@@ -594,7 +594,7 @@ static double weight_by_definition(const rlvc_agent *agent, uint32_t at, uint32_
     double left = 1.0;
     for (uint32_t j = 0; rlvc_split_at(agent, j, &split, NULL) == RLVC_OK; j++)
         if (split.class_id == class_id)
-            left = 0.6;
+            left = 0.4;
     return left * weight_of_path(agent, at, class_id);
 }
 

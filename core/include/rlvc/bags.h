@@ -46,7 +46,7 @@ RLVC_API rlvc_status rlvc_bags_default(rlvc_bags *bags, uint32_t points, uint32_
  * of one percept, drawn from all targets alike that are not their action's only one. Twice it
  * becomes the vectors that the percepts which have most of it have in common, and percepts with
  * other targets have not; then `needed` is put where it parts those targets best. So a candidate
- * costs O((2 K + 32) 512 P D), at most.
+ * costs O((2 K + 64) 512 P D), at most.
  *
  * Of noise, too, something is always found that fits the targets. So candidates are gathered from
  * every second sample of the class only, and the others must bear them out: by Fisher's exact test
@@ -76,8 +76,8 @@ RLVC_API rlvc_status rlvc_bags_nearest(const rlvc_bags *bags, const void *percep
  * thing may show too little of its bag, and then a path that asks for enough of it goes astray.
  * Here each class weighs as the product, over the bags of which its percepts have enough, of the
  * score in parts of what is needed: of the last at most 4, of those before at most 1. A class whose
- * percepts have not enough of the last bag of their path weighs 0.6 of that. The heaviest is the
- * answer, of equals the first. Where enough of one thing's bag is to be seen, and not 0.6 of any
+ * percepts have not enough of the last bag of their path weighs 0.4 of that. The heaviest is the
+ * answer, of equals the first. Where enough of one thing's bag is to be seen, and not 0.4 of any
  * other's, that is the class that rlvc_predict finds. O(classes K P D); changes nothing but what is
  * written to.
  * @param bags    of the domain of the agent, an agent of classes

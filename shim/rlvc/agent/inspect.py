@@ -79,7 +79,7 @@ class Queries(Learner[Domain, Config]):
         Before clutter, partly covered, or from another side a thing may show less of its bag than is
         needed, so that :meth:`predict` goes astray. Here each class weighs as the product, over the
         bags of which its percepts have enough, of the score in parts of what is needed; a class
-        that is told by what its percepts have not weighs 0.6 of that. The heaviest is the answer.
+        that is told by what its percepts have not weighs 0.4 of that. The heaviest is the answer.
         Where nothing differs from learning, :meth:`predict` is right a little more often.
 
         Parameters
