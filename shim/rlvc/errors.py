@@ -8,9 +8,15 @@ documentation of the method says otherwise.
 
 from __future__ import annotations
 
+import re
+
 
 class Error(Exception):
-    """Any error of this package."""
+    """Any error of this package. Its text is one line, also where it quotes another library's."""
+
+    def __str__(self) -> str:
+        """Return the text."""
+        return re.sub(r"\s*\n\s*", " ", super().__str__().strip())
 
 
 class LibraryError(Error, ImportError):

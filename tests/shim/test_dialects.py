@@ -398,3 +398,13 @@ def test_a_header_that_is_missing(tmp_path):
     )
     names = ["state", "action", "reward", "next_state", "terminated", "truncated"]
     assert rlvc.learn_from(file, header=names, discount=0.9).agent.print("json") == expected()
+
+
+@pytest.mark.parametrize("state", ["1", '"[1.0, 2.0]"'])
+def test_a_log_of_one_row(state, tmp_path):
+    """As a log is that was cut off after its first line: it has an interaction, and no episode that ends."""
+    log = tmp_path / "log.csv"
+    log.write_text(f"state,action,reward,next_state,done\n{state},0,1.0,{state},False\n", encoding="utf-8")
+    read = logs.read(log)
+    assert len(read.actions) == 1
+    assert any("no episode ends" in note for note in read.notes)

@@ -564,3 +564,11 @@ def test_ctrl_c_stops_a_long_step():
     agent.check()
     agent.predict(percepts[:10])
     assert agent.learn(1000).done is False
+
+
+def test_an_error_is_one_line():
+    """Also one that quotes an exception of another library."""
+    for kind in (errors.Error, errors.LogError, errors.StoreError, errors.LibraryError):
+        assert str(kind("log.parquet: cannot be read: bad header\n  at byte 5\n")) == (
+            "log.parquet: cannot be read: bad header at byte 5"
+        )

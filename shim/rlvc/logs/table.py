@@ -231,7 +231,7 @@ def _tell_of_ends(log: Log, told: bool) -> None:
         breaks = int(np.any(differ, axis=0).sum())
     elif isinstance(log.before, np.ndarray):
         differ = log.after[:-1] != log.before[1:]
-        breaks = int(differ.reshape(len(differ), -1).any(axis=1).sum())
+        breaks = int(differ.any(axis=tuple(range(1, differ.ndim))).sum())
     if breaks and told:
         log.notes.append(f"no episode ends; after {breaks} rows the next one is of another time")
     elif breaks:
