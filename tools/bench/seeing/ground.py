@@ -8,8 +8,9 @@ rlvc/GroundView-v0 on pictures of scikit-image and scikit-learn. A run has a goa
 is fitted to 60 views of its photograph, and 4,000 interactions: the first eighth at random, then of ten episodes seven
 in which three moves of four are what has been learnt so far. With --heading-unknown the camera is turned
 by any angle, and it has 8,000. A line tells the share of 25 episodes that find the goal within 60 moves, how
-many moves they take in relation to those of an oracle that knows where it is, and how many classes there
-are. Needs scikit-image, scikit-learn and OpenCV."""
+many moves they take in relation to those of an oracle that knows where it is, both also for a camera that never
+takes back its last move but makes the best of the other three, and how many classes there are. Needs
+scikit-image, scikit-learn and OpenCV."""
 
 import argparse
 
@@ -45,13 +46,15 @@ def make_eye(env, random, unknown):
 
 
 def evaluate(env, act, seed):
-    """The share of episodes that find the goal, and the mean number of moves."""
+    """The share of episodes that find the goal, and the mean number of moves. A move is chosen by what is seen, and
+    by the last move (None at first)."""
     found, moves = 0, 0
     for episode in range(EPISODES):
         observation, _ = env.reset(seed=seed + episode)
-        over = False
+        over, last = False, None
         while not over:
-            observation, _, terminated, truncated, _ = env.step(act(observation))
+            last = act(observation, last)
+            observation, _, terminated, truncated, _ = env.step(last)
             over, moves = terminated or truncated, moves + 1
         found += terminated
     return found / EPISODES, moves / EPISODES
@@ -82,16 +85,29 @@ def wander(env, eye, interactions, seed, random):
     return agent
 
 
+def onwards(worth, last):
+    """The best move of those that do not take back the last one."""
+    if last is None:
+        return int(worth.argmax())
+    back = (last + 2) % 4
+    return max((move for move in range(4) if move != back), key=lambda move: worth[move])
+
+
 def run(name, seed, unknown):
+    """The share of episodes that find the goal and their moves in relation to the oracle's, by the policy, and by it
+    when it never turns back; and the number of classes."""
     random = np.random.default_rng(seed)
     env = rlvc.envs.GroundView(objects.photograph(name), turn=180 if unknown else 0,
                                goal=tuple(random.uniform(0.1, 0.9, 2)))
     eye = make_eye(env, random, unknown)
     interactions = 8000 if unknown else 4000
     agent = wander(env, eye, interactions, seed, random)
-    found, moves = evaluate(env, lambda seen: agent.predict(eye.encode(seen)).action, 10**6)
-    _, best = evaluate(env, lambda seen: env.towards(), 10**6)
-    return found, moves / best, agent.classes
+    _, best = evaluate(env, lambda seen, last: env.towards(), 10**6)
+    found, moves = evaluate(env, lambda seen, last: agent.predict(eye.encode(seen)).action, 10**6)
+    q = agent.q
+    further, fewer = evaluate(
+        env, lambda seen, last: onwards(q[agent.predict(eye.encode(seen)).class_id], last), 10**6)
+    return found, moves / best, further, fewer / best, agent.classes
 
 
 def main():
@@ -104,10 +120,11 @@ def main():
     parser.add_argument("--heading-unknown", action="store_true")
     options = parser.parse_args()
     for name in options.photographs:
-        found, times, classes = np.array([run(name, options.seed + i, options.heading_unknown)
-                                          for i in range(options.runs)]).T
+        found, times, further, fewer, classes = np.array(
+            [run(name, options.seed + i, options.heading_unknown) for i in range(options.runs)]).T
         print(f"{name:10}  found {found.mean():.3f} (least {found.min():.2f})  moves {times.mean():.2f} of "
-              f"the oracle's  classes {np.median(classes):.0f}", flush=True)
+              f"the oracle's; never turning back {further.mean():.3f} (least {further.min():.2f}) and "
+              f"{fewer.mean():.2f}; classes {np.median(classes):.0f}", flush=True)
 
 
 if __name__ == "__main__":
