@@ -41,6 +41,7 @@ static void make_in(int byte, uint32_t components, uint32_t actions, uint32_t ro
     arena.base = (unsigned char *)block;
     arena.used = 0;
     carve_all(&arena, components, actions, room);
+    memset(&model.ending, byte, sizeof model.ending);
 }
 
 static void make(uint32_t components, uint32_t actions, uint32_t room) {
