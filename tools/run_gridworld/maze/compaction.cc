@@ -10,9 +10,6 @@
 
 namespace {
 
-constexpr uint32_t entries = 1u << 18;         // of the table of subsets: 6 MiB
-constexpr uint64_t effort = uint64_t{1} << 28; // takes seconds if it is used up
-
 using Block = std::unique_ptr<uint64_t[]>;
 
 Block allocate(std::size_t bytes) {
@@ -23,9 +20,16 @@ Block allocate(std::size_t bytes) {
     return block;
 }
 
+rlvc_policy_config default_config(const rlvc_agent *agent) {
+    rlvc_policy_config config;
+    check(rlvc_policy_default(agent, &config), "rlvc_policy_default");
+    return config;
+}
+
 } // namespace
 
-Fewest fewest_leaves(const gridworld_maze &maze, const Optimum &optimum) {
+Fewest fewest_leaves(const rlvc_agent *agent, const gridworld_maze &maze, const Optimum &optimum) {
+    const rlvc_policy_config config = default_config(agent);
     std::vector<uint64_t> rows, allowed;
     const uint32_t x_bits = gridworld_x_bits(&maze);
     for (uint32_t cell = 0; cell < maze.width * maze.height; cell++) {
@@ -43,8 +47,8 @@ Fewest fewest_leaves(const gridworld_maze &maze, const Optimum &optimum) {
     task.allowed = allowed.data();
     task.rows = static_cast<uint32_t>(rows.size());
     task.features = x_bits + gridworld_y_bits(&maze);
-    task.entries = entries;
-    task.effort = effort;
+    task.entries = config.entries;
+    task.effort = config.effort;
     std::size_t bytes = 0;
     rlvc_min_tree_result tree;
     check(rlvc_min_tree_size(&task, &bytes), "rlvc_min_tree_size");
@@ -55,13 +59,10 @@ Fewest fewest_leaves(const gridworld_maze &maze, const Optimum &optimum) {
 
 Compaction compact(rlvc_agent *agent, const gridworld_maze &maze, uint32_t distractors,
                    const Optimum &optimum) {
-    rlvc_policy_config config;
+    const rlvc_policy_config config = default_config(agent);
     std::size_t bytes = 0;
     rlvc_policy *policy = nullptr;
     Compaction made;
-    check(rlvc_policy_default(agent, &config), "rlvc_policy_default");
-    config.entries = entries;
-    config.effort = effort;
     check(rlvc_policy_size(agent, &config, &bytes), "rlvc_policy_size");
     const Block block = allocate(bytes);
     check(rlvc_policy_make(agent, &config, block.get(), bytes, &policy, &made.info),

@@ -9,14 +9,14 @@
 #include <string>
 
 // Leaves of the smallest tree over the bits of x and y that acts optimally in every cell. No other
-// bit can help.
+// bit can help. It is searched for as long as the agent's policy is.
 struct Fewest {
     uint32_t leaves = 0;
     bool exact = false; // if not, the maze is too large to search, and there may be a smaller one
 };
 
 // Throws Failure: there is no memory.
-Fewest fewest_leaves(const gridworld_maze &maze, const Optimum &optimum);
+Fewest fewest_leaves(const rlvc_agent *agent, const gridworld_maze &maze, const Optimum &optimum);
 
 // The agent's policy as a minimal tree (rlvc/policy.h).
 struct Compaction {

@@ -140,7 +140,7 @@ RunResult Learner::result() {
         collect(options_.interactions);
     }
     result.compaction = compact(agent_.get(), maze_, options_.distractors, optimum_);
-    result.fewest = fewest_leaves(maze_, optimum_);
+    result.fewest = fewest_leaves(agent_.get(), maze_, optimum_);
     return result;
 }
 
