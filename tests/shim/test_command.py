@@ -62,6 +62,29 @@ def test_wrong_arguments_are_told_in_one_line(arguments, capsys, monkeypatch, tm
 
 
 @pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["learn", "x", "--interactions", "many"], "--interactions: 'many' is not a whole number of at least 1"),
+        (["learn", "x", "--capacity", "1.5"], "--capacity: '1.5' is not a whole number"),
+        (["learn", "x", "--bins", "2,b"], "--bins: '2,b' is not a whole number, or a list A,B,..."),
+        (["learn", "x", "--discount", "x"], "--discount: 'x' is not a number"),
+        (["learn", "x", "--successors", "perhaps"], "--successors: 'perhaps' is not one of yes, no"),
+        (["learn", "x", "--score", "guess"], "--score: 'guess' is not one of gain, ranks"),
+        (["learn", "x", "--names", ""], "--names: '' has an empty name"),
+        (["learn", "x", "--columns", "a,,b"], "--columns: 'a,,b' has an empty name"),
+        (["learn", "x", "--roles", "action"], "--roles: 'action' is not ROLE=COLUMN"),
+        (["fleet", "learn", "x", "--workers", "0"], "--workers: '0' is not a whole number of at least 1"),
+        (["fleet", "learn", "x", "--reward-grid", "x"], "--reward-grid: 'x' is not a number"),
+        (["fleet", "learn", "x", "--method", "guess"], "--method: 'guess' is not one of classes, planner"),
+    ],
+)  # fmt: skip
+def test_values_of_a_kind_are_refused_in_the_same_words(arguments, said, capsys):
+    with pytest.raises(SystemExit):
+        command.main(arguments)
+    assert f"rlvc: argument {said}; python -m rlvc" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
     "report",
     ["[" * 100_000, "{}", "[]", '{"version": 2}', '{"version": 1, "tree": 5}', '{"version": 1, "runs": 7}',
      '{"version": 1, "tree": {"nodes": [{}]}}', "\xff", "", "NaN", '{"version": 1, "history": [1]}'],

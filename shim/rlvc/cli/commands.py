@@ -22,13 +22,13 @@ from ..agent.planned_policy import PlannedPolicy, is_policy
 from ..agent.planned_policy import read_file as read_policy
 from ..agent.snapshot import read_file
 from ..errors import ConfigError, EnvError, Error, RunError
-from ..fleet import command as fleet
 from ..learning.encode import Encoder
 from ..learning.learn import learn
 from ..learning.run import Run
 from ..learning.store import is_run, load
 from ..logs import learn_from
 from ..words import explain
+from . import fleet
 from .parser import config_fields
 
 _LOG_OPTIONS = ("columns", "header", "roles", "bins")

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-from collections.abc import Callable
 from typing import Any, NoReturn, get_args
 
 from .._version import __version__
 from ..agent.config import CHOICES, Config
 from ..agent.planner_config import PlannerConfig
-from ..fleet import command as fleet
 from ..learning.learn import Method
+from . import fleet, values
+from .options import add_env_options, add_log_options, add_outputs
 
 FIGURES = (
     *("maze", "values", "curve", "splits", "tree", "tiles", "features"),
@@ -27,61 +27,16 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"rlvc: {message}; {self.prog} --help tells more\n")
 
-
-def _number(least: int) -> Callable[[str], int]:
-    """Make the type of integers that are at least `least`."""
-
-    def taken(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            value = least - 1
-        if value < least:
-            raise argparse.ArgumentTypeError(f"{text!r:.80} is not an integer of at least {least}")
-        return value
-
-    return taken
-
-
-_whole, _seed = _number(1), _number(0)
-
-
-def _truth(text: str) -> bool:
-    if text.lower() in ("true", "yes", "1"):
-        return True
-    if text.lower() in ("false", "no", "0"):
-        return False
-    raise argparse.ArgumentTypeError(f"{text!r:.80} is neither yes nor no")
-
-
-def _listed(text: str) -> list[str]:
-    return text.split(",")
-
-
-def _bins(text: str) -> int | list[int]:
-    try:
-        numbers = [int(part) for part in text.split(",")]
-    except ValueError:
-        raise argparse.ArgumentTypeError(
-            f"{text!r:.80} is not an integer, or a list A,B,..."
-        ) from None
-    return numbers[0] if len(numbers) == 1 else numbers
-
-
-def _roles(text: str) -> dict[str, list[str]]:
-    """The columns for roles; a role that is named again has one more."""
-    found: dict[str, list[str]] = {}
-    for part in text.split(","):
-        role, sign, name = part.partition("=")
-        if not sign or not name:
-            raise argparse.ArgumentTypeError(f"{part!r:.80} is not ROLE=COLUMN")
-        found.setdefault(role.strip(), []).append(name.strip())
-    return found
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """Tell a wrong choice in the words of :mod:`.values`."""
+        if action.choices is not None and value not in action.choices:
+            names = ", ".join(map(str, action.choices))
+            raise argparse.ArgumentError(action, f"{value!r:.80} is not one of {names}")
 
 
 def config_fields() -> dict[str, Any]:
     """The fields of the configs that have an option of their own, and how a text becomes a value."""
-    kinds: dict[str, Any] = {"int": int, "float": float, "bool": _truth}
+    kinds: dict[str, Any] = {"int": values.whole(), "float": values.number, "bool": values.truth}
     found: dict[str, Any] = {}
     for field in (*dataclasses.fields(Config), *dataclasses.fields(PlannerConfig)):
         kind = str(field.type).split(" |")[0]
@@ -92,27 +47,6 @@ def config_fields() -> dict[str, Any]:
 
 def _option(name: str) -> str:
     return "--" + name.replace("_", "-")
-
-
-def _add_log_options(add: Any) -> None:
-    add(
-        "--columns",
-        metavar="A,B,...",
-        type=_listed,
-        help="columns of a log that are the observation",
-    )
-    add(
-        "--header",
-        metavar="A,B,...",
-        type=_listed,
-        help="names of the columns of a log without a header",
-    )
-    add(
-        "--roles",
-        metavar="ROLE=COLUMN,...",
-        type=_roles,
-        help="roles of columns whose names do not tell them, such as action=valve,done=stop",
-    )
 
 
 def _add_frames(add: Any) -> None:
@@ -126,46 +60,38 @@ def _add_frames(add: Any) -> None:
     add("--save-metric", metavar="FILE", help="write the metric of the frames' vectors")
 
 
-def _add_env_options(add: Any) -> None:
-    add("--env-arg", metavar="NAME=VALUE", action="append", default=[],
-        help="argument of the environment, such as is_slippery=False")  # fmt: skip
-
-
 def _add_percepts(add: Any) -> None:
     """What is observed, and which actions there are."""
     add(
         "--thresholds",
-        type=_seed,
+        type=values.natural,
         metavar="N",
         help="maximum number of cutpoints of a component; 0: no limit",
     )
-    add("--names", type=_listed, metavar="A,B,...", help="names of the numbers of an observation")
+    add(
+        "--names",
+        type=values.listed,
+        metavar="A,B,...",
+        help="names of the numbers of an observation",
+    )
     add(
         "--bins",
-        type=_bins,
+        type=values.bins,
         metavar="N",
         help="number of discrete actions for each element of a Box of actions",
     )
-    add("--hold", type=_whole, metavar="N", help="number of steps for which an action is held")
+    add(
+        "--hold",
+        type=values.positive,
+        metavar="N",
+        help="number of steps for which an action is held",
+    )
     add(
         "--history",
-        type=_whole,
+        type=values.positive,
         metavar="N",
         help="observe the last N observations, and the actions between them",
     )
-
-
-def _add_outputs(add: Any) -> None:
-    """What is made of a run."""
-    add("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
-    add("--c", metavar="FILE", help="write the policy as a C header; -: print it")
-    add(
-        "--save",
-        metavar="FILE",
-        help="write the run: show, evaluate, explain, plot and export read it",
-    )
-    add("--compact", action="store_true", help="use the smallest tree that acts as well")
-    add("--quiet", action="store_true", help="show no progress bar")
 
 
 def _add_learn(commands: Any) -> None:
@@ -179,28 +105,34 @@ def _add_learn(commands: Any) -> None:
         help="environment, such as FrozenLake-v1 or MODULE:ID; or files of logs")  # fmt: skip
     add("--log", metavar="FILE", nargs="+", help="logs of any kind, or name of a Minari data set")
     _add_frames(add)
-    add("--interactions", type=_whole, metavar="N", default=10_000,
+    add("--interactions", type=values.positive, metavar="N", default=10_000,
         help="number of interactions with ENV (default: %(default)s)")  # fmt: skip
-    add("--seed", type=_seed, metavar="N", default=1,
+    add("--seed", type=values.natural, metavar="N", default=1,
         help="seed of all random numbers (default: %(default)s)")  # fmt: skip
     add(
         "--seeds",
-        type=_whole,
+        type=values.positive,
         metavar="N",
         help="learn N times in ENV, from --seed on, and print the return of each seed",
     )
     add("--run", metavar="FILE", help="go on with a saved run in ENV")
-    _add_env_options(add)
-    add("--every", type=_whole, metavar="N", help="interactions between two learning steps")
-    _add_percepts(add)
-    _add_log_options(add)
-    add("--actions", type=_whole, metavar="N", help="number of actions of --log")
+    add_env_options(add)
     add(
-        "--steps", type=_whole, metavar="N", help="number of learning steps with --log (default: 1)"
+        "--every", type=values.positive, metavar="N", help="interactions between two learning steps"
     )
-    add("--episodes", type=_seed, metavar="N", default=100,
+    _add_percepts(add)
+    add_log_options(add)
+    add("--actions", type=values.positive, metavar="N", help="number of actions of --log")
+    add(
+        "--steps",
+        type=values.positive,
+        metavar="N",
+        help="number of learning steps with --log (default: 1)",
+    )
+    add("--episodes", type=values.natural, metavar="N", default=100,
         help="number of episodes to play after learning (default: %(default)s)")  # fmt: skip
-    _add_outputs(add)
+    add("--compact", action="store_true", help="use the smallest tree that acts as well")
+    add_outputs(add)
     add("--method", choices=get_args(Method),
         help="how to learn (default: planner on real numbers from ENV, else classes)")  # fmt: skip
     config = learn.add_argument_group(
@@ -208,8 +140,8 @@ def _add_learn(commands: Any) -> None:
     )
     for name, kind in config_fields().items():
         config.add_argument(_option(name), type=kind, metavar="X")
-    for name, values in CHOICES.items():
-        config.add_argument(_option(name), choices=values)
+    for name, choices in CHOICES.items():
+        config.add_argument(_option(name), choices=choices)
 
 
 def _add_of_a_run(commands: Any) -> None:
@@ -221,12 +153,12 @@ def _add_of_a_run(commands: Any) -> None:
     command("show", "print what was saved", "Prints the tree of a saved run, agent or policy.")
     add = command("evaluate", "play with a saved run", "Plays episodes without exploring.")
     add("env", metavar="ENV")
-    _add_env_options(add)
-    add("--history", type=_whole, metavar="N", help="as in learning")
-    add("--episodes", type=_whole, metavar="N", default=100, help="(default: %(default)s)")
+    add_env_options(add)
+    add("--history", type=values.positive, metavar="N", help="as in learning")
+    add("--episodes", type=values.positive, metavar="N", default=100, help="(default: %(default)s)")
     add(
         "--seed",
-        type=_seed,
+        type=values.natural,
         metavar="N",
         default=1,
         help="of the first reset (default: %(default)s)",
@@ -258,14 +190,16 @@ def _add_plot(commands: Any) -> None:
     add("run", metavar="RUN")
     add("kind", choices=FIGURES)
     add("file", metavar="FILE", help="a .png, .svg or .pdf")
-    add("--components", type=_listed, metavar="A,B", help="of regions: the two that are drawn")
+    add(
+        "--components", type=values.listed, metavar="A,B", help="of regions: the two that are drawn"
+    )
     add(
         "--observation",
         metavar="JSON",
         help="of a path: the observation; of regions: what the other components are",
     )
     add("--env", metavar="ENV", help="of a grid: FrozenLake-v1, CliffWalking-v1 or Taxi-v4")
-    _add_env_options(add)
+    add_env_options(add)
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -299,8 +233,8 @@ def make_parser() -> argparse.ArgumentParser:
     convert.add_argument("log", metavar="FILE")
     convert.add_argument("to", metavar="FILE.npz")
     for each in (log, convert):
-        _add_log_options(each.add_argument)
-        each.add_argument("--bins", type=_whole, metavar="N",
+        add_log_options(each.add_argument)
+        each.add_argument("--bins", type=values.positive, metavar="N",
             help="number of discrete actions for each real action")  # fmt: skip
 
     fleet.add(commands)

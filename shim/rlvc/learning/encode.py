@@ -193,6 +193,8 @@ class Encoder:
                     f"names: {shown(names)}: give a list of {numbers} names for {space!s:.80}"
                 )
             names = [str(word) for word in words]
+            if not all(name.strip() for name in names):
+                raise ConfigError(f"names: {shown(names)}: a name is empty")
         self._settle(parts, thresholds, names)
 
     def _settle(

@@ -13,12 +13,11 @@ where each split is one too many. The metric comes from other objects. A line te
 actions in the test (of random: whether the tree grew), and how many classes and pairs there are;
 --single learns without pairs."""
 
-import argparse
 import itertools
-import sys
 
 import numpy as np
 
+import command_line
 import objects
 import rlvc
 import rlvc.vision
@@ -121,16 +120,10 @@ def run(name, seed, single):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tasks", nargs="*", default=list(TASKS), metavar="TASK", help=", ".join(TASKS))
-    parser.add_argument("--runs", type=int, default=20, help="runs of each, with seeds of their own")
-    parser.add_argument("--seed", type=int, default=100, help="the first seed")
+    parser = command_line.parser_of(__doc__, runs=20)
+    command_line.add_names(parser, "task", TASKS)
     parser.add_argument("--single", action="store_true", help="without pairs")
     options = parser.parse_args()
-    unknown = set(options.tasks) - set(TASKS)
-    if unknown:
-        sys.exit(f"arrangements.py: no such task: {', '.join(sorted(unknown))}")
     for name in options.tasks:
         results = np.array([run(name, options.seed + i, options.single) for i in range(options.runs)])
         right, classes, pairs = results.T

@@ -11,12 +11,11 @@ right with 25 % by chance. The tree is the library's on these bits (discount 0, 
 picture); the others are scikit-learn's: naive Bayes on the bits that the tree tests, naive Bayes on all,
 and 100 extremely random trees on all. Prints Markdown. Needs scikit-image and scikit-learn."""
 
-import argparse
-
 import numpy as np
 from sklearn.ensemble import ExtraTreesClassifier
 from sklearn.naive_bayes import BernoulliNB
 
+import command_line
 import objects
 import outside
 import rlvc
@@ -93,10 +92,7 @@ def run(config, seed, name):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--runs", type=int, default=5, help="runs of each, with seeds of their own")
-    parser.add_argument("--seed", type=int, default=100, help="the first seed")
+    parser = command_line.parser_of(__doc__, runs=5)
     options = parser.parse_args()
     print(f"| window | learnt from | test | {' | '.join(NAMES)} |\n|---|---|---|---|---|---|---|")
     for window, config in WINDOWS.items():

@@ -12,10 +12,9 @@ many moves they take in relation to those of an oracle that knows where it is, b
 takes back its last move but makes the best of the other three, and how many classes there are. Needs
 scikit-image, scikit-learn and OpenCV."""
 
-import argparse
-
 import numpy as np
 
+import command_line
 import objects
 import rlvc
 import rlvc.envs
@@ -111,12 +110,9 @@ def run(name, seed, unknown):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser_of(__doc__, runs=10)
     parser.add_argument("photographs", nargs="*", default=["china", "coffee", "chelsea"],
                         metavar="PHOTOGRAPH", help="china, flower, or a picture of skimage.data")
-    parser.add_argument("--runs", type=int, default=10, help="runs on each")
-    parser.add_argument("--seed", type=int, default=100, help="the first seed")
     parser.add_argument("--heading-unknown", action="store_true")
     options = parser.parse_args()
     for name in options.photographs:

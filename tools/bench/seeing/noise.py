@@ -11,11 +11,9 @@ most, that should have one. thing: one action is right with the first thing, and
 thing+gauss: likewise, and a normal number of standard deviation 0.5 is added to each reward. A line tells in how
 many runs a tree grew, and, if half of them found something, after how many interactions (the median)."""
 
-import argparse
-import sys
-
 import numpy as np
 
+import command_line
 import rlvc
 
 THINGS, PARTS, DIMENSIONS = 4, 4, 32
@@ -59,16 +57,10 @@ def grows(task, seed, alpha):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tasks", nargs="*", default=list(TASKS), metavar="TASK", help=", ".join(TASKS))
-    parser.add_argument("--runs", type=int, default=200, help="runs of each, with seeds of their own")
-    parser.add_argument("--seed", type=int, default=1000, help="the first seed")
+    parser = command_line.parser_of(__doc__, runs=200, seed=1000)
+    command_line.add_names(parser, "task", TASKS)
     parser.add_argument("--alpha", type=float, default=0.01, help="of the agent (0.01, the default)")
     options = parser.parse_args()
-    unknown = set(options.tasks) - set(TASKS)
-    if unknown:
-        sys.exit(f"noise.py: no such task: {', '.join(sorted(unknown))}")
     for task in options.tasks:
         after = [grows(task, options.seed + i, options.alpha) for i in range(options.runs)]
         _, learnable = TASKS[task]

@@ -18,12 +18,11 @@ one vector, 30 points, sigma 6) and bags (of 16 vectors, 120 points, sigma 2.5; 
 Agent.predict, and of bags also of Agent.weigh. Needs scikit-image and
 scikit-learn."""
 
-import argparse
-import sys
 import time
 
 import numpy as np
 
+import command_line
 import objects
 import rlvc
 import rlvc.vision
@@ -36,6 +35,7 @@ COPIES, TESTS = 8, 3  # pictures of each pose
 SEEN, HELD_OUT, NARROW, BEYOND = (0, 20, -20), (10, -10), (0, 10, -10), (30, -30)
 LEARNT = ("brick", "grass", "coffee", "astronaut", "flower", "camera")
 TESTED = ("gravel", "chelsea", "china", "rocket", "coins", "page")
+SETS = ("black", "clutter", "narrow")
 RULES = {  # rule: (config of the extractor, parameters of the domain)
     "vectors": ({"sigma": 6.0, "points": 30}, {}),
     "bags": ({"sigma": 2.5, "points": 120}, {"bags": True}),
@@ -183,17 +183,11 @@ def run(rule, seed, sets):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("rules", nargs="*", default=list(RULES), metavar="RULE", help=", ".join(RULES))
-    parser.add_argument("--sets", nargs="+", default=["black", "clutter", "narrow"], metavar="SET",
-                        help="what is learnt from: black, clutter, narrow")
-    parser.add_argument("--runs", type=int, default=20, help="runs of each, with seeds of their own")
-    parser.add_argument("--seed", type=int, default=100, help="the first seed")
+    parser = command_line.parser_of(__doc__, runs=20)
+    command_line.add_names(parser, "rule", RULES)
+    parser.add_argument("--sets", nargs="+", type=command_line.one_of(SETS), default=SETS, metavar="SET",
+                        help=f"what is learnt from, of {', '.join(SETS)} (default: all)")
     options = parser.parse_args()
-    unknown = set(options.rules) - set(RULES)
-    if unknown:
-        sys.exit(f"outside.py: no such rule: {', '.join(sorted(unknown))}")
     for rule in options.rules:
         results = [run(rule, options.seed + i, options.sets) for i in range(options.runs)]
         for name in options.sets:

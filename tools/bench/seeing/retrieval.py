@@ -17,12 +17,10 @@ and 1.25 times the size, with 10 and 20 % covered by one colour, and before phot
 Rows with points are the library's, in bytes. SIFT, RootSIFT, ORB and AKAZE are OpenCV's with their own
 points, the 120 strongest. Prints Markdown. Needs OpenCV 4 (5 has no AKAZE), scikit-image and scikit-learn."""
 
-import argparse
-import sys
-
 import cv2
 import numpy as np
 
+import command_line
 import objects
 import outside
 import rlvc.vision
@@ -151,15 +149,9 @@ def run(make, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("rows", nargs="*", default=list(ROWS), metavar="ROW", help="; ".join(ROWS))
-    parser.add_argument("--runs", type=int, default=5, help="runs of each, with seeds of their own")
-    parser.add_argument("--seed", type=int, default=100, help="the first seed")
+    parser = command_line.parser_of(__doc__, runs=5)
+    command_line.add_names(parser, "row", ROWS, "; ")
     options = parser.parse_args()
-    unknown = set(options.rows) - set(ROWS)
-    if unknown:
-        sys.exit(f"retrieval.py: no such row: {', '.join(sorted(unknown))}")
     for i, row in enumerate(options.rows):
         results = [run(ROWS[row], options.seed + k) for k in range(options.runs)]
         if i == 0:

@@ -7,9 +7,11 @@ import argparse
 import sys
 from typing import Any
 
-from .convert import FILE_ROWS, convert, export
-from .learn import learn_from
-from .run import FleetRun
+from ..fleet.convert import FILE_ROWS, convert, export
+from ..fleet.learn import learn_from
+from ..fleet.run import FleetRun
+from . import values
+from .options import add_outputs
 
 
 def add(commands: Any) -> None:
@@ -30,9 +32,10 @@ def add(commands: Any) -> None:
     made = verbs.add_parser("convert", help="write a log as Parquet files")
     made.add_argument("log", metavar="LOG", help="NPZ, CSV or controller log, or a Minari data set")
     made.add_argument("folder", metavar="FOLDER", help="a folder, or an address such as s3://...")
-    made.add_argument("--actions", type=int, metavar="N")
-    made.add_argument("--columns", metavar="A,B,...", help="columns of a CSV that are observed")
-    made.add_argument("--file-rows", type=int, metavar="N", default=FILE_ROWS,
+    made.add_argument("--actions", type=values.positive, metavar="N")
+    made.add_argument("--columns", metavar="A,B,...", type=values.listed,
+        help="columns of a CSV that are observed")  # fmt: skip
+    made.add_argument("--file-rows", type=values.positive, metavar="N", default=FILE_ROWS,
         help="interactions in a file (default: %(default)s)")  # fmt: skip
     made.add_argument(
         "--prefix", default="part", help="beginning of the names (default: %(default)s)"
@@ -50,25 +53,32 @@ def _add_learn(verbs: Any) -> None:
     option("--method", choices=["classes", "planner"], default="classes",
         help="of bits by counts, or of real numbers by a sample (default: %(default)s)")  # fmt: skip
     option("--cluster", metavar="ADDRESS", help="ray, ray://..., dask, tcp://... (default: none)")
-    option("--workers", type=int, metavar="N", help="tasks at a time of a cluster on this machine")
+    option(
+        "--workers",
+        type=values.positive,
+        metavar="N",
+        help="tasks at a time of a cluster on this machine",
+    )
     option("--checkpoint", metavar="FILE", help="save to after each pass, and go on from")
     option(
         "--sample",
-        type=int,
+        type=values.positive,
         metavar="N",
         help="interactions to guess features from, or a planner's",
     )
-    option("--reward-bits", type=int, metavar="N", help="tell rewards apart by N bits")
-    option("--reward-grid", type=float, metavar="X", help="tell rewards apart on a grid")
+    option("--reward-bits", type=values.natural, metavar="N", help="tell rewards apart by N bits")
+    option("--reward-grid", type=values.number, metavar="X", help="tell rewards apart on a grid")
     option("--skip-broken", action="store_true", help="leave out row groups that are broken")
-    option("--actions", type=int, metavar="N")
-    option("--discount", type=float, metavar="X")
-    option("--tolerance", type=float, metavar="X")
-    option("--capacity", type=int, metavar="N", help="of the controller that loads the result")
-    option("--json", metavar="FILE", help="write a report for 'plot'; -: print it")
-    option("--c", metavar="FILE", help="write the policy as a C header; -: print it")
-    option("--save", metavar="FILE", help="write the run, for 'show' and 'export'")
-    option("--quiet", action="store_true", help="show no progress bar")
+    option("--actions", type=values.positive, metavar="N")
+    option("--discount", type=values.number, metavar="X")
+    option("--tolerance", type=values.number, metavar="X")
+    option(
+        "--capacity",
+        type=values.positive,
+        metavar="N",
+        help="of the controller that loads the result",
+    )
+    add_outputs(option)
 
 
 _OPTIONS = (
@@ -90,8 +100,7 @@ def run(parsed: argparse.Namespace) -> FleetRun | None:
         The run of ``learn``.
     """
     if parsed.verb == "convert":
-        columns = parsed.columns.split(",") if parsed.columns else None
-        files = convert(parsed.log, parsed.folder, columns=columns, actions=parsed.actions,
+        files = convert(parsed.log, parsed.folder, columns=parsed.columns, actions=parsed.actions,
                         file_rows=parsed.file_rows, prefix=parsed.prefix)  # fmt: skip
         print(*files, sep="\n")
         return None
