@@ -288,6 +288,12 @@ def test_a_tree_of_one_class():
         plot.splits(agent)
 
 
+def test_the_leaf_of_a_policy_is_no_class():
+    source = plot.tree(rlvc.Policy(rlvc.Agent(3, 2))).source
+    assert "action 0" in source
+    assert "class" not in source
+
+
 def test_the_command_learns_and_draws(tmp_path, capsys):
     file, header = tmp_path / "run.json", tmp_path / "policy.h"
     assert command.main([

@@ -32,7 +32,12 @@ def add(commands: Any) -> None:
     made = verbs.add_parser("convert", help="write a log as Parquet files")
     made.add_argument("log", metavar="LOG", help="NPZ, CSV or controller log, or a Minari data set")
     made.add_argument("folder", metavar="FOLDER", help="a folder, or an address such as s3://...")
-    made.add_argument("--actions", type=values.positive, metavar="N")
+    made.add_argument(
+        "--actions",
+        type=values.positive,
+        metavar="N",
+        help="number of actions (default: as the log says)",
+    )
     made.add_argument("--columns", metavar="A,B,...", type=values.listed,
         help="columns of a CSV that are observed")  # fmt: skip
     made.add_argument("--file-rows", type=values.positive, metavar="N", default=FILE_ROWS,
@@ -50,8 +55,12 @@ def _add_learn(verbs: Any) -> None:
     learn = verbs.add_parser("learn", help="learn, and print the tree")
     option = learn.add_argument
     option("source", metavar="SOURCE", nargs="+", help="files, folders, addresses or data sets")
-    option("--method", choices=["classes", "planner"], default="classes",
-        help="of bits by counts, or of real numbers by a sample (default: %(default)s)")  # fmt: skip
+    option(
+        "--method",
+        choices=["classes", "planner"],
+        default="classes",
+        help="classes: bits, by counts; planner: real numbers, by a sample (default: %(default)s)",
+    )
     option("--cluster", metavar="ADDRESS", help="ray, ray://..., dask, tcp://... (default: none)")
     option(
         "--workers",
@@ -59,24 +68,39 @@ def _add_learn(verbs: Any) -> None:
         metavar="N",
         help="tasks at a time of a cluster on this machine",
     )
-    option("--checkpoint", metavar="FILE", help="save to after each pass, and go on from")
+    option("--checkpoint", metavar="FILE", help="save to FILE after each pass, and go on from it")
     option(
         "--sample",
+        type=values.natural,
+        metavar="N",
+        help="interactions that features are guessed from (0: none), or a planner learns from",
+    )
+    option(
+        "--reward-bits",
+        type=values.natural,
+        metavar="N",
+        help="tell rewards apart by N bits of their fraction",
+    )
+    option(
+        "--reward-grid",
+        type=values.number,
+        metavar="X",
+        help="tell rewards apart on a grid of step X",
+    )
+    option("--skip-broken", action="store_true", help="leave out row groups that are broken")
+    option(
+        "--actions",
         type=values.positive,
         metavar="N",
-        help="interactions to guess features from, or a planner's",
+        help="number of actions (default: as the log says)",
     )
-    option("--reward-bits", type=values.natural, metavar="N", help="tell rewards apart by N bits")
-    option("--reward-grid", type=values.number, metavar="X", help="tell rewards apart on a grid")
-    option("--skip-broken", action="store_true", help="leave out row groups that are broken")
-    option("--actions", type=values.positive, metavar="N")
-    option("--discount", type=values.number, metavar="X")
-    option("--tolerance", type=values.number, metavar="X")
+    option("--discount", type=values.number, metavar="X", help="discount of future rewards")
+    option("--tolerance", type=values.number, metavar="X", help="accuracy of the values")
     option(
         "--capacity",
         type=values.positive,
         metavar="N",
-        help="of the controller that loads the result",
+        help="capacity of the controller that loads the result, in interactions",
     )
     add_outputs(option)
 

@@ -43,6 +43,6 @@ def add_outputs(add: Any) -> None:
     add(
         "--save",
         metavar="FILE",
-        help="write the run: show, evaluate, explain, plot and export read it",
+        help="write the run, which other commands read",
     )
     add("--quiet", action="store_true", help="show no progress bar")

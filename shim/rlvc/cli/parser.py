@@ -34,10 +34,14 @@ class _Parser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, f"{value!r:.80} is not one of {names}")
 
 
-def config_fields() -> dict[str, Any]:
-    """The fields of the configs that have an option of their own, and how a text becomes a value."""
-    kinds: dict[str, Any] = {"int": values.whole(), "float": values.number, "bool": values.truth}
-    found: dict[str, Any] = {}
+def config_fields() -> dict[str, dict[str, Any]]:
+    """The fields of the configs that have an option of their own, and what values these take."""
+    kinds = {
+        "int": {"type": values.whole(), "metavar": "N"},
+        "float": {"type": values.number, "metavar": "X"},
+        "bool": {"type": values.truth, "metavar": "yes|no"},
+    }
+    found: dict[str, dict[str, Any]] = {}
     for field in (*dataclasses.fields(Config), *dataclasses.fields(PlannerConfig)):
         kind = str(field.type).split(" |")[0]
         if kind in kinds and field.name not in ("actions", "seed"):
@@ -53,7 +57,7 @@ def _add_frames(add: Any) -> None:
     add(
         "--frames",
         metavar="SOURCE",
-        help="a folder of pictures or a video, seen by a camera; its log is in it or beside, or --log",
+        help="a folder of pictures or a video of a camera, with a log in it, beside it, or of --log",
     )
     add("--frame-column", metavar="NAME", help="column of the log that names the frames")
     add("--scale-depth", action="store_true", help="scale frames of 16 bits a channel to 8")
@@ -136,10 +140,11 @@ def _add_learn(commands: Any) -> None:
     add("--method", choices=get_args(Method),
         help="how to learn (default: planner on real numbers from ENV, else classes)")  # fmt: skip
     config = learn.add_argument_group(
-        "config", "rlvc.Config and rlvc.PlannerConfig document these; each method has its own."
+        "config",
+        "Fields of rlvc.Config (classes) and rlvc.PlannerConfig (planner), which document them.",
     )
     for name, kind in config_fields().items():
-        config.add_argument(_option(name), type=kind, metavar="X")
+        config.add_argument(_option(name), **kind)
     for name, choices in CHOICES.items():
         config.add_argument(_option(name), choices=choices)
 
@@ -152,16 +157,22 @@ def _add_of_a_run(commands: Any) -> None:
 
     command("show", "print what was saved", "Prints the tree of a saved run, agent or policy.")
     add = command("evaluate", "play with a saved run", "Plays episodes without exploring.")
-    add("env", metavar="ENV")
+    add("env", metavar="ENV", help="environment, such as FrozenLake-v1 or MODULE:ID")
     add_env_options(add)
-    add("--history", type=values.positive, metavar="N", help="as in learning")
-    add("--episodes", type=values.positive, metavar="N", default=100, help="(default: %(default)s)")
+    add(
+        "--history",
+        type=values.positive,
+        metavar="N",
+        help="observe the last N observations, as in learning",
+    )
+    add("--episodes", type=values.positive, metavar="N", default=100,
+        help="number of episodes (default: %(default)s)")  # fmt: skip
     add(
         "--seed",
         type=values.natural,
         metavar="N",
         default=1,
-        help="of the first reset (default: %(default)s)",
+        help="seed of the first reset (default: %(default)s)",
     )
     add = command(
         "explain", "say why a run acts so", "Prints the path of an observation through the tree."
@@ -169,7 +180,7 @@ def _add_of_a_run(commands: Any) -> None:
     add(
         "observation",
         metavar="JSON",
-        help="such as 5, '[0.1, -0.2]' or '{\"mode\": \"heat\"}'; of a run on pictures the file of one",
+        help="such as 5, '[0.1, -0.2]' or '{\"mode\": \"heat\"}'; for a run on pictures: its file",
     )
     command(
         "importances", "measure what matters", "Prints how often the action depends on each number."
@@ -187,18 +198,21 @@ def _add_plot(commands: Any) -> None:
         "Regions, importances, path and grid need a saved run.",
     )
     add = plot.add_argument
-    add("run", metavar="RUN")
-    add("kind", choices=FIGURES)
+    add("run", metavar="RUN", help="a saved run, or a report")
+    add("kind", choices=FIGURES, help="what to draw")
     add("file", metavar="FILE", help="a .png, .svg or .pdf")
     add(
-        "--components", type=values.listed, metavar="A,B", help="of regions: the two that are drawn"
+        "--components",
+        type=values.listed,
+        metavar="A,B",
+        help="for regions: the two components that are drawn",
     )
     add(
         "--observation",
         metavar="JSON",
-        help="of a path: the observation; of regions: what the other components are",
+        help="for path: the observation; for regions: what the other components are",
     )
-    add("--env", metavar="ENV", help="of a grid: FrozenLake-v1, CliffWalking-v1 or Taxi-v4")
+    add("--env", metavar="ENV", help="for grid: FrozenLake-v1, CliffWalking-v1 or Taxi-v4")
     add_env_options(add)
 
 

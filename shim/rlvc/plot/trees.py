@@ -41,7 +41,7 @@ def _action(report: dict[str, Any], action: int) -> str:
 def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
     """Draw the tree: a box for each test, a rounded box for each class with its action and value.
 
-    The tree of a planner or a policy has no values.
+    The leaves of a planner or a policy are no classes: their boxes have the action alone.
 
     Needs ``tree``. Saving it needs the program ``dot`` of Graphviz; without it this raises
     :class:`~rlvc.errors.RunError`.
@@ -69,9 +69,9 @@ def tree(source: Source, file: str | Path | None = None) -> graphviz.Digraph:
             graph.edge(name, str(node["absent"]), label="no", style="dashed")
             graph.edge(name, str(node["present"]), label="yes")
         else:
-            action = _action(report, node["action"])
-            value = f", value {node['value']:.3g}" if "value" in node else ""  # none of a policy
-            label = f"class {node['class']}\n{action}{value}"
+            label = _action(report, node["action"])
+            if "value" in node:  # a class; a leaf of a planner or a policy has an action alone
+                label = f"class {node['class']}\n{label}, value {node['value']:.3g}"
             graph.node(name, label, style="rounded,filled", fillcolor="#fbf3d9", color=GREY)
     if file is not None:
         check_name(file)

@@ -15,10 +15,10 @@ def parser_of(page, runs, seed=100):
     return parser
 
 
-def add_names(parser, name, known, separator=", "):
+def add_names(parser, name, known):
     """Add names of KNOWN; none means all of them."""
     parser.add_argument(f"{name}s", nargs="*", type=one_of(known), default=list(known),
-                        metavar=name.upper(), help=f"of {separator.join(known)} (default: all)")
+                        metavar=name.upper(), help=f"of {'; '.join(known)} (default: all)")
 
 
 def _positive(text):
@@ -32,7 +32,7 @@ def one_of(known):
     """The type of arguments that are one of some names."""
     def taken(text):
         if text not in known:
-            raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(known)}")
+            raise argparse.ArgumentTypeError(f"{text!r} is not one of {'; '.join(known)}")
         return text
 
     return taken

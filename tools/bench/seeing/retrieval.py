@@ -150,7 +150,7 @@ def run(make, seed):
 
 def main():
     parser = command_line.parser_of(__doc__, runs=5)
-    command_line.add_names(parser, "row", ROWS, "; ")
+    command_line.add_names(parser, "row", ROWS)
     options = parser.parse_args()
     for i, row in enumerate(options.rows):
         results = [run(ROWS[row], options.seed + k) for k in range(options.runs)]
