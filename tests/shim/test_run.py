@@ -209,6 +209,8 @@ def test_names_and_words(tmp_path):
     assert next(iter(run.importances())) in ("b", "c")
     with pytest.raises(errors.ConfigError, match="3 names"):
         rlvc.learn(Guess("thresholds"), 10, names=["a"])
+    with pytest.raises(errors.ConfigError, match="a name is empty"):
+        rlvc.learn(Guess("thresholds"), 10, names=["a", "", "c"])
     pole = gymnasium.make("CartPole-v1")
     assert rlvc.learn(pole, 300, seed=1).encoder.names[2] == "angle"
     mixed = rlvc.learn(Guess("mixed"), 1000, seed=1, method="classes", discount=0.0)
