@@ -81,7 +81,7 @@ def test_wrong_arguments_are_told_in_one_line(arguments, capsys, monkeypatch, tm
 def test_values_of_a_kind_are_refused_in_the_same_words(arguments, said, capsys):
     with pytest.raises(SystemExit):
         command.main(arguments)
-    assert f"rlvc: argument {said}; python -m rlvc" in capsys.readouterr().err
+    assert f"rlvc: {said}; python -m rlvc" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

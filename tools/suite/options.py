@@ -46,7 +46,7 @@ def _names(known):
         names = text.split(",")
         for name in names:
             if name not in known:
-                raise argparse.ArgumentTypeError(f"unknown name {name!r}; known: {', '.join(known)}")
+                raise argparse.ArgumentTypeError(f"{name!r} is not one of {', '.join(known)}")
         return list(dict.fromkeys(names))
 
     return parse

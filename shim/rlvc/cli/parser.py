@@ -25,7 +25,8 @@ class _Parser(argparse.ArgumentParser):
     """Prints an error on one line."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"rlvc: {message}; {self.prog} --help tells more\n")
+        what = message.removeprefix("argument ")  # as other errors begin: with the option
+        self.exit(2, f"rlvc: {what}; {self.prog} --help tells more\n")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """Tell a wrong choice in the words of :mod:`.values`."""
