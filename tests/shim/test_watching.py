@@ -2,6 +2,7 @@
 """Watching a run: callbacks, many seeds, hidden states, actions that are no numbers."""
 
 import csv
+import errno
 import io
 import pickle
 
@@ -29,9 +30,13 @@ def test_a_curve_without_exploring(tmp_path):
     assert rlvc.load(tmp_path / "at-200.rlvc").interactions == 200
     rows = list(csv.DictReader(io.StringIO((tmp_path / "history.csv").read_text(encoding="utf-8"))))
     assert [int(row["interactions"]) for row in rows] == [r.interactions for r in run.history]
-    for file in (None, 3, b"at"):
+    for file in (None, 3, b"at", ""):
         with pytest.raises(errors.ConfigError, match="file"):
             rlvc.CheckpointCallback(file)
+        with pytest.raises(errors.ConfigError, match="file"):
+            rlvc.CsvCallback(file)
+    with pytest.raises(errors.ConfigError, match="file"):
+        rlvc.EvalCallback(Line(), best=3)
     with pytest.raises(errors.ConfigError, match="every"):
         rlvc.EvalCallback(Line(), 0)
 
@@ -40,6 +45,26 @@ def test_tensorboard(tmp_path):
     pytest.importorskip("tensorboardX")
     rlvc.learn(Line(), 500, seed=1, callback=rlvc.TensorBoardCallback(tmp_path))
     assert any(tmp_path.iterdir())
+    with pytest.raises(errors.ConfigError, match="folder"):
+        rlvc.TensorBoardCallback(None)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(errors.StoreError, match="file: cannot be written: "):
+        rlvc.TensorBoardCallback(tmp_path / "file")
+
+
+def test_a_callback_that_finds_the_disk_full_keeps_the_run(tmp_path):
+    pytest.importorskip("tensorboardX")
+    watch = rlvc.TensorBoardCallback(tmp_path)
+
+    class Full:
+        def add_scalar(self, *_):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    watch.writer.close()
+    watch.writer = Full()
+    with pytest.raises(errors.StoreError, match="cannot be written: No space left") as raised:
+        rlvc.learn(Line(), 500, every=100, seed=1, callback=watch)
+    assert raised.value.run.interactions == 100
 
 
 def test_many_seeds(tmp_path):

@@ -8,6 +8,7 @@ import json
 import os
 import pty
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -263,6 +264,22 @@ def test_no_room_to_write(tmp_path):
                               stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
     check_refused(done, "standard output", "No space left")
     assert files(tmp_path) == []
+
+
+def test_files_too_large_for_the_process(tmp_path):
+    (tmp_path / "report.json").write_text("old")
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
+
+    with open(tmp_path / "screen", "w") as screen:
+        done = subprocess.run([PROGRAM, "binary", "--help"], stdout=screen, stderr=subprocess.PIPE, text=True,
+                              timeout=300, preexec_fn=limit)
+    check_refused(done, "standard output", "File too large")
+    done = run("binary", "--interactions", "100", "--json", "report.json", cwd=tmp_path, preexec_fn=limit)
+    check_refused(done, "--json", "report.json", "File too large")
+    assert (tmp_path / "report.json").read_text() == "old"
+    assert files(tmp_path) == ["report.json", "screen"]
 
 
 def test_nobody_reads(tmp_path):

@@ -217,6 +217,9 @@ def spoil(folder, how):
         (folder / "a5.ppm").write_bytes(b"P6 64 64 65535\n" + bytes(64 * 64 * 6))
     elif how == "only 9 objects":
         (folder / "a5.ppm").unlink()
+    elif how == "a5.ppm: not a regular file":
+        (folder / "a5.ppm").unlink()
+        (folder / "a5.ppm").symlink_to("a5.ppm")
     elif how == "no picture":
         for file in folder.iterdir():
             file.unlink()
@@ -228,7 +231,7 @@ def spoil(folder, how):
 
 @pytest.mark.parametrize("how", ["not a picture", "empty file", "grey among colour",
                                  "among pictures of 64 x 64", "8 bits", "only 9 objects",
-                                 "no picture", "cannot read"])
+                                 "a5.ppm: not a regular file", "no picture", "cannot read"])
 def test_bad_pictures(tmp_path, folder, how):
     spoil(folder, how)
     kept = tmp_path / "report.json"
@@ -308,6 +311,9 @@ def test_scenery(tmp_path, folder):
     (["--poses", "0,x"], ["--poses: 'x'", "from -359 to 359"]),
     (["--poses", ""], ["--poses: ''"]),
     (["--test-poses", "10,360"], ["--test-poses: '360'"]),
+    (["--poses", "20,0,-340"], ["--poses: '-340' is there already"]),
+    (["--noise", " 3"], ["--noise: ' 3'"]),
+    (["--noise", "0x10"], ["--noise: '0x10'"]),
     (["--jpeg", "0"], ["--jpeg: '0'", "from 1 to 100"]),
     (["--seed", "-1"], ["--seed: '-1'"]),
     (["--runs", "1e3"], ["--runs: '1e3'"]),

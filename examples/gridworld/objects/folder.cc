@@ -25,12 +25,13 @@ struct File {
 // The pictures in a folder and below it, in the order of their paths.
 std::vector<fs::path> list_folder(const std::string &folder) {
     std::vector<fs::path> paths;
-    std::error_code error;
+    std::error_code error, broken_link;
     for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
          at.increment(error)) {
-        if (at->is_directory() && at->path().filename().string().front() == '.') {
+        const bool is_folder = at->is_directory(broken_link);
+        if (is_folder && at->path().filename().string().front() == '.') {
             at.disable_recursion_pending();
-        } else if (!at->is_directory() && is_picture_name(at->path())) {
+        } else if (!is_folder && is_picture_name(at->path())) {
             paths.push_back(at->path());
         }
     }

@@ -94,6 +94,8 @@ def convert(
     pa = layout.arrow()
     try:
         return _written(all_of_it, source.exploited, (bits, count, file_rows), str(folder), prefix)
+    except StoreError:  # it names the file
+        raise
     except (OSError, pa.ArrowException) as error:
         raise StoreError(f"{folder}: cannot be written: {error}") from error
 

@@ -6,20 +6,29 @@ Each is called with the run after every learning step. Several may be given, as 
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import dataclasses
 import io
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..checks import real, shown, whole
-from ..errors import ConfigError
+from ..checks import named, real, shown, whole
+from ..errors import ConfigError, StoreError
 from ..files import replace
 from . import boundary
 
 if TYPE_CHECKING:
     from .evaluation import Evaluation
     from .run import Record, Run
+
+
+def _name(what: str, path: Any) -> str:
+    """Return the name of a file or a folder, which is to be written later."""
+    if not isinstance(path, str | Path) or not str(path):
+        raise ConfigError(f"{what}: {shown(path)} is not the name of a {what}")
+    return str(path)
 
 
 class _Every:
@@ -72,7 +81,8 @@ class EvalCallback(_Every):
     ) -> None:
         super().__init__(every)
         boundary.check(env)
-        self.env, self.episodes, self.seed, self.best = env, episodes, seed, best
+        self.env, self.episodes, self.seed = env, episodes, seed
+        self.best = None if best is None else _name("file", best)
         self.stop_at = None if stop_at is None else real("stop_at", stop_at)
         self.interactions: list[int] = []
         self.evaluations: list[Evaluation] = []
@@ -103,9 +113,7 @@ class CheckpointCallback(_Every):
 
     def __init__(self, file: str | Path, every: int = 10_000) -> None:
         super().__init__(every)
-        if not isinstance(file, str | Path):
-            raise ConfigError(f"file: {shown(file)} is not the name of a file")
-        self.file = str(file)
+        self.file = _name("file", file)
 
     def __call__(self, run: Run) -> None:
         """Save, if it is time."""
@@ -122,7 +130,7 @@ class CsvCallback:
     """
 
     def __init__(self, file: str | Path) -> None:
-        self.file = file
+        self.file = _name("file", file)
 
     def __call__(self, run: Run) -> None:
         """Write the file anew."""
@@ -153,21 +161,38 @@ class TensorBoardCallback:
     ----------
     folder : str or Path
         TensorBoard's log directory.
+
+    Raises
+    ------
+    StoreError
+        The folder cannot be written; also when called.
     """
 
     def __init__(self, folder: str | Path) -> None:
+        self.folder = _name("folder", folder)
         try:
             from tensorboardX import SummaryWriter
         except ImportError:
             raise ImportError(
                 "TensorBoardCallback needs tensorboardX: pip install 'rlvc[watch]'"
             ) from None
-        self.writer = SummaryWriter(str(folder))
+        with self._writing():
+            self.writer = SummaryWriter(self.folder)
 
     def __call__(self, run: Run) -> None:
         """Write the newest record."""
         record = run.history[-1]
-        self.writer.add_scalar("rlvc/classes", record.classes, record.interactions)
-        if record.episodes:
-            self.writer.add_scalar("rlvc/mean_return", record.mean_return, record.interactions)
-        self.writer.flush()
+        with self._writing():
+            self.writer.add_scalar("rlvc/classes", record.classes, record.interactions)
+            if record.episodes:
+                self.writer.add_scalar("rlvc/mean_return", record.mean_return, record.interactions)
+            self.writer.flush()
+
+    @contextlib.contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise StoreError(
+                f"{named(self.folder)}: cannot be written: {error.strerror or error}"
+            ) from error

@@ -50,7 +50,8 @@ CLI::Validator number(float low, float high, Interval interval) {
         [low, high, interval](std::string &text) {
             char *end = nullptr;
             const float value = std::strtof(text.c_str(), &end);
-            const bool whole_text = end != text.c_str() && *end == '\0';
+            const bool decimal = text.find_first_not_of("0123456789+-.eE") == std::string::npos;
+            const bool whole_text = decimal && end != text.c_str() && *end == '\0';
             const bool above = interval == Interval::open_low ? value > low : value >= low;
             const bool below = interval == Interval::open_high ? value < high : value <= high;
             if (whole_text && above && below) {

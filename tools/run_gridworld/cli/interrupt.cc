@@ -28,7 +28,9 @@ void watch(int flags) {
 
 void watch_for_interrupts() {
     watch(SA_RESTART);
-    std::signal(SIGPIPE, SIG_IGN);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) {
+        std::signal(signal, SIG_IGN);
+    }
 }
 
 int interrupt_signal() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SIGINT, SIGTERM and SIGHUP only set a flag. A run checks it between slices of work and throws
-// Interrupted, so that unfinished files are removed. SIGPIPE is ignored: the write fails instead
-// (ReaderGone).
+// Interrupted, so that unfinished files are removed. SIGPIPE and SIGXFSZ are ignored: the write
+// fails instead (ReaderGone; a Failure).
 #ifndef RUN_GRIDWORLD_CLI_INTERRUPT_H
 #define RUN_GRIDWORLD_CLI_INTERRUPT_H
 

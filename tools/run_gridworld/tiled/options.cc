@@ -64,7 +64,12 @@ void add_angles(CLI::App &app, const std::string &name, std::vector<int> &into, 
                std::size_t from = 0;
                while (from <= list.size()) {
                    const std::size_t to = std::min(list.find(',', from), list.size());
-                   into.push_back(angle_of(name, list.substr(from, to - from)));
+                   const std::string one = list.substr(from, to - from);
+                   const int angle = angle_of(name, one);
+                   if (std::find(into.begin(), into.end(), angle) != into.end()) {
+                       throw Failure(name + ": '" + one + "' is there already");
+                   }
+                   into.push_back(angle);
                    from = to + 1;
                }
            },
