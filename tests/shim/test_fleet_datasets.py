@@ -3,12 +3,14 @@
 
 import itertools
 import json
+import os
 
 import numpy as np
 import pytest
 import worlds
 
 import rlvc
+from rlvc import errors
 from rlvc.errors import ConfigError, LogError
 
 pytest.importorskip("pyarrow")
@@ -134,6 +136,81 @@ def test_actions_are_the_same_numbers_in_each_file(tmp_path):
     assert run.agent.config.actions == 3
     for value in (False, True):
         assert run.act(np.array([False, True, value, True])) == 1 + value
+
+
+@pytest.mark.parametrize(("text", "says"), [
+    ("", "no JSON"), ("[" * 100_000, "no JSON"), ("9" * 5000, "no JSON"), ("null", "column obs: missing"),
+    ("5", "column obs: missing"), ('["codebase_version"]', "column obs: missing"),
+])  # fmt: skip
+def test_a_folder_that_is_not_quite_lerobots(tmp_path, some, text, says):
+    folder = lerobot(tmp_path / "set", some, "v3.0", 1)
+    (folder / "meta/info.json").write_text(text)
+    with pytest.raises(LogError, match=says):
+        rlvc.fleet.learn_from(folder, actions=4)
+
+
+def test_lerobot_in_one_go_or_with_a_file_without_rows(tmp_path, some):
+    folder = lerobot(tmp_path / "set", some, "v3.0", 2)
+    expected = rlvc.fleet.learn_from(folder, actions=4)
+    with pytest.warns(errors.LogWarning):
+        run = rlvc.learn_from(folder, actions=4, columns=["observation.state"])
+    assert run.interactions == expected.report.interactions
+    file = folder / "data/chunk-000/file-000.parquet"
+    pq.write_table(pq.read_table(file).slice(0, 0), folder / "data/chunk-000/file-00.parquet")
+    expect_same(rlvc.fleet.learn_from(folder, actions=4), expected)
+    for each in file.parent.iterdir():
+        pq.write_table(pq.read_table(each).slice(0, 0), each)
+    with pytest.raises(LogError, match="there is no interaction"):
+        rlvc.fleet.learn_from(folder, actions=4)
+
+
+def forged(table, how):
+    """Frames of which something is wrong."""
+    if how == "other bits":
+        state = pa.array(np.ones(17 * len(table), np.float32))
+        return table.set_column(0, "observation.state", pa.FixedSizeListArray.from_arrays(state, 17))
+    if how == "huge actions":
+        return table.set_column(table.column_names.index("action"), "action", [np.full(len(table), 1e300)])
+    return pa.Table.from_arrays([*table.columns, table.column("action")], [*table.column_names, "action"])
+
+
+@pytest.mark.parametrize(("how", "says"), [
+    ("other bits", "percepts of 17 bits, not of 18"), ("huge actions", r"actions: \d+ is not in"),
+    ("a name twice", "two columns have the same name"),
+])  # fmt: skip
+def test_forged_frames(tmp_path, some, how, says):
+    folder = lerobot(tmp_path / "set", some, "v3.0", 2)
+    file = folder / "data/chunk-000/file-001.parquet"
+    pq.write_table(forged(pq.read_table(file), how), file)
+    with pytest.raises(LogError, match=rf"file-001\.parquet: {says}"):
+        rlvc.fleet.learn_from(folder, actions=4)
+
+
+def test_damaged_frames_are_refused_by_one_sentence(tmp_path, some):
+    folder = lerobot(tmp_path / "set", some, "v3.0", 1)
+    file = folder / "data/chunk-000/file-000.parquet"
+    whole, rng, said = file.read_bytes(), np.random.default_rng(5), []
+    for _ in range(60):
+        damaged = bytearray(whole)
+        for place in len(whole) - 1 - rng.integers(0, 3000, 2):  # in the footer: names, types, places
+            damaged[place] = rng.integers(256)
+        file.write_bytes(damaged)
+        try:
+            rlvc.fleet.learn_from(folder, actions=4)
+        except errors.Error as error:
+            said.append(str(error))
+    assert len(said) > 30
+    assert not any("\n" in text for text in said)
+
+
+def test_names_that_are_not_utf8(tmp_path, some):
+    folder = lerobot(tmp_path / "set", some, "v3.0", 1)
+    try:
+        (folder / "data" / os.fsdecode(b"\xff.parquet")).write_bytes(b"")
+    except OSError:
+        pytest.skip("this file system has no such names")
+    with pytest.raises(LogError, match="not UTF-8"):
+        rlvc.fleet.learn_from(folder, actions=4)
 
 
 # ------------------------------------------------------------------ Minari

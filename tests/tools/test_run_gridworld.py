@@ -263,6 +263,10 @@ def test_no_room_to_write(tmp_path):
         done = subprocess.run([PROGRAM, "binary", "--json", "report.json"], cwd=tmp_path,
                               stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
     check_refused(done, "standard output", "No space left")
+    for asked in (["--help"], ["binary", "--help"], ["tiled", "--version"]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([PROGRAM, *asked], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
+        check_refused(done, "standard output", "No space left")
     assert files(tmp_path) == []
 
 

@@ -21,7 +21,7 @@ from ..errors import LogError, LogWarning
 from ..logs import from_arrays, from_minari
 from ..logs.log import Log
 from . import layout
-from .places import files_below, filesystem_of, parquet
+from .places import files_below, filesystem_of, parquet, reading
 
 EPISODES_ROWS = 1 << 16  # interactions of the Minari episodes that are read at once
 
@@ -39,9 +39,10 @@ def is_lerobot(path: str) -> bool:
         return False
     with filesystem.open_input_stream(name) as file:
         try:
-            return "codebase_version" in json.loads(file.read())
-        except ValueError as error:
+            info = json.loads(file.read())
+        except (ValueError, RecursionError) as error:
             raise LogError(f"{path}/meta/info.json: no JSON: {error}") from error
+    return isinstance(info, dict) and "codebase_version" in info
 
 
 def files_of_lerobot(path: str) -> list[str]:
@@ -61,13 +62,9 @@ def from_table(path: str) -> Log:
     ----------
     path : str
     """
-    pa = layout.arrow()
-    with parquet(path) as file:
-        try:
-            table = file.read(use_threads=False)
-        except (OSError, pa.ArrowException) as error:
-            raise LogError(f"{path}: cannot be read: {error}") from error
-    columns = {name: _values(table.column(name)) for name in table.column_names}
+    with parquet(path) as file, reading(path):
+        table = file.read(use_threads=False)
+        columns = {name: _values(table.column(name)) for name in table.column_names}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LogWarning)  # the report counts what is lost
         return from_arrays({k: values for k, values in columns.items() if values is not None}, path)

@@ -33,7 +33,7 @@ def numbered(log: Log) -> Log:
             f"{log.where}: actions: {known.name(0)}, ... are not numbers from 0 to 254, so that each "
             "file may number them in its own way: convert all at once with rlvc.fleet.convert"
         )
-    if known.start < 0:
+    if not 0 <= known.start <= 254:
         raise LogError(f"{log.where}: actions: {known.start} is not in [0, 254]")
     log.actions = log.actions + known.start
     return log

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -68,9 +70,11 @@ def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
         if info.type != pa.fs.FileType.Directory:
             raise LogError(f"{path}: no such file or folder")
         below = filesystem.get_file_info(pa.fs.FileSelector(within, recursive=True))
+        names = [entry.path for entry in below if entry.type == pa.fs.FileType.File]
+    except UnicodeDecodeError:
+        raise LogError(f"{path}: Arrow knows no name that is not UTF-8, as of a file in it") from None
     except (OSError, pa.ArrowException) as error:
         raise LogError(f"{path}: cannot be listed: {error}") from error
-    names = [entry.path for entry in below if entry.type == pa.fs.FileType.File]
     scheme = path.partition("://")[0] + "://" if "://" in path else ""
     kept: list[str] = []
     for some in endings:
@@ -82,6 +86,25 @@ def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
     return [scheme + name for name in kept]
 
 
+@contextlib.contextmanager
+def reading(where: str, what: str = "") -> Iterator[None]:
+    """Turn what Arrow raises of a damaged file into one error: it has no single kind of its own.
+
+    Parameters
+    ----------
+    where : str
+        What is read, for the error.
+    what : str
+        As what it is read.
+    """
+    try:
+        yield
+    except LogError:
+        raise
+    except Exception as error:
+        raise LogError(f"{where}: cannot be read{what}: {' '.join(str(error).split())}") from error
+
+
 def parquet(path: str) -> Any:
     """Open a Parquet file.
 
@@ -91,7 +114,9 @@ def parquet(path: str) -> Any:
     """
     pa = layout.arrow()
     filesystem, within = filesystem_of(path)
-    try:
-        return pa.parquet.ParquetFile(within, filesystem=filesystem, memory_map=False)
-    except (OSError, pa.ArrowException) as error:
-        raise LogError(f"{path}: cannot be read as Parquet: {error}") from error
+    with reading(path, " as Parquet"):
+        file = pa.parquet.ParquetFile(within, filesystem=filesystem, memory_map=False)
+        names = file.schema_arrow.names
+    if len(set(names)) != len(names):
+        raise LogError(f"{path}: two columns have the same name (present: {', '.join(names)})")
+    return file

@@ -18,7 +18,7 @@ from ..logs.log import Log
 from . import columns as foreign
 from . import datasets, layout
 from .logs import columns_of_log, numbered, reals_of_log
-from .places import files_below, parquet
+from .places import files_below, parquet, reading
 
 _GROUPS = 4  # row groups in a piece, about a million interactions
 _WHOLE = (".npz", ".csv")  # read at once, with the readers of rlvc.logs
@@ -113,9 +113,12 @@ def _of_tables(files: Sequence[str], real: bool) -> Source:
                 raise LogError(f"{name}: percepts of bits: a planner needs real numbers")
             meta = file.metadata
             size = sum(meta.row_group(i).total_byte_size for i in range(meta.num_row_groups))
+        if meta.num_rows:
             pieces.append(Piece(name, (), meta.num_rows, size, "table"))
-    log = numbered(datasets.from_table(files[0]))
-    actions = log.known.start + log.known.count if len(files) == 1 else 0
+    if not pieces:
+        raise LogError(f"{files[0]}: there is no interaction")
+    log = numbered(datasets.from_table(pieces[0].path))
+    actions = log.known.start + log.known.count if len(pieces) == 1 else 0
     return _made(pieces, log, real, actions)
 
 
@@ -211,16 +214,14 @@ def opened(source: Any, real: bool = False) -> Source:
 
 def _group(file: Any, group: int, where: str, names: list[str]) -> Any:
     """Read a row group; an error names the column."""
-    pa = layout.arrow()
     try:
-        return file.read_row_group(group, columns=names, use_threads=False)
-    except (OSError, pa.ArrowException) as error:
+        with reading(where):
+            return file.read_row_group(group, columns=names, use_threads=False)
+    except LogError:
         for name in names:
-            try:
+            with reading(f"{where}: column {name}"):
                 file.read_row_group(group, columns=[name], use_threads=False)
-            except (OSError, pa.ArrowException) as inner:
-                raise LogError(f"{where}: column {name}: cannot be read: {inner}") from inner
-        raise LogError(f"{where}: cannot be read: {error}") from error
+        raise
 
 
 def blocks(piece: Piece, bits: int) -> Iterator[tuple[str, Columns | LogError]]:
@@ -274,6 +275,6 @@ def log_of(piece: Piece) -> Log:
 
 def _fitting(log: Log, bits: int) -> Columns:
     columns, found, _ = columns_of_log(log)
-    if -(-found // 8) != -(-bits // 8):
+    if found != bits:
         raise LogError(f"{log.where}: percepts of {found} bits, not of {bits}")
     return columns

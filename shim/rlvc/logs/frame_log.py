@@ -51,7 +51,7 @@ def from_parquet(path: str | Path, **arguments: Any) -> Log:
     Parameters
     ----------
     path : str or Path
-        A file, or a folder of Parquet files.
+        A file, or a folder of Parquet files, or of a data set of LeRobot.
     **arguments
         Of :func:`rlvc.logs.from_arrays`.
     """
@@ -62,7 +62,9 @@ def from_parquet(path: str | Path, **arguments: Any) -> Log:
             "Parquet files need pandas and pyarrow: pip install 'rlvc[logs]'"
         ) from None
     try:
-        if Path(path).is_dir():
+        if Path(path, "meta", "info.json").is_file():  # LeRobot's
+            frame = pandas.read_parquet(Path(path, "data"))
+        elif Path(path).is_dir():
             frame = pandas.read_parquet(path)
         else:
             with open_file(path) as file:  # a regular file
@@ -71,5 +73,6 @@ def from_parquet(path: str | Path, **arguments: Any) -> Log:
     except ImportError:
         raise ImportError("Parquet files need pyarrow: pip install 'rlvc[logs]'") from None
     except Exception as error:  # of pyarrow
-        raise LogError(f"{path}: cannot be read as Parquet: {error}") from error
+        text = " ".join(str(error).split())
+        raise LogError(f"{path}: cannot be read as Parquet: {text}") from error
     return from_frame(frame, str(path), **arguments)

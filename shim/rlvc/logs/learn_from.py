@@ -114,13 +114,12 @@ def _counted(log: Log, actions: int | None) -> Actions:
     known = log.known
     if known.table is not None or known.words:
         raise ConfigError(f"actions: the log has {known.count} of its own: leave actions out")
-    numbers = log.actions + known.start
-    bad = np.flatnonzero((numbers < 0) | (numbers >= count))
+    lowest, indices = int(known.start), log.actions  # their sum may be beyond int64
+    bad = np.flatnonzero((indices < -lowest) | (indices >= count - lowest))
     if len(bad):
-        raise LogError(
-            f"{log.where}: actions: index {bad[0]}: {numbers[bad[0]]} is not in [0, {count})"
-        )
-    log.actions = numbers
+        number = int(indices[bad[0]]) + lowest
+        raise LogError(f"{log.where}: actions: index {bad[0]}: {number} is not in [0, {count})")
+    log.actions = indices + lowest
     return Actions(count)
 
 

@@ -2,6 +2,7 @@
 #include "arguments.h"
 
 #include "failure.h"
+#include "screen.h"
 
 #include "rlvc/rlvc.h"
 
@@ -144,7 +145,9 @@ bool parse(CLI::App &app, int argc, char **argv) {
         }
         app.parse(std::move(arguments));
     } catch (const CLI::Success &asked) {
-        app.exit(asked);
+        std::ostringstream answer;
+        app.exit(asked, answer, answer);
+        Screen().print(answer.str());
         return false;
     } catch (const CLI::ExtrasError &) {
         throw Failure(app.remaining(true).front() + ": unknown option; see --help");
