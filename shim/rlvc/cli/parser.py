@@ -29,7 +29,7 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"rlvc: {what}; {self.prog} --help tells more\n")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """Tell a wrong choice in the words of :mod:`.values`."""
+        """Tell a wrong choice as other wrong values are told."""
         if action.choices is not None and value not in action.choices:
             names = ", ".join(map(str, action.choices))
             raise argparse.ArgumentError(action, f"{value!r:.80} is not one of {names}")
