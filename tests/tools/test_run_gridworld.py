@@ -537,6 +537,16 @@ def test_report_through_a_link(tmp_path):
     assert files(tmp_path) == ["report.json", "target.json"]
 
 
+@pytest.mark.parametrize("kept, mode", [(None, 0o640), (0o666, 0o666), (0o600, 0o600)])
+def test_permissions_of_a_file(tmp_path, kept, mode):
+    if kept is not None:
+        (tmp_path / "tree.dot").touch()
+        (tmp_path / "tree.dot").chmod(kept)
+    done = run("binary", "--interactions", "500", "--dot", "tree.dot", cwd=tmp_path, umask=0o027)
+    assert done.returncode == 0
+    assert (tmp_path / "tree.dot").stat().st_mode & 0o777 == mode
+
+
 # ------------------------------------------------------------------------- showing
 
 def test_pictures(tmp_path):

@@ -21,6 +21,13 @@ std::string resolved(const std::string &name) {
     return realpath(name.c_str(), path) ? path : name;
 }
 
+// The permissions of a new file.
+mode_t default_mode() {
+    const mode_t mask = umask(0);
+    umask(mask);
+    return 0666 & ~mask;
+}
+
 } // namespace
 
 OutputFile::OutputFile(const std::string &option, const std::string &name)
@@ -37,14 +44,14 @@ OutputFile::OutputFile(const std::string &option, const std::string &name)
     } else if (exists && access(name.c_str(), W_OK) != 0) {
         fail(errno);
     } else {
-        temporary_ = final_ + "." + std::to_string(getpid()) + ".tmp";
-        const mode_t mode = exists ? there.st_mode & 07777 : 0666;
-        file_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        temporary_ = final_ + ".XXXXXX";
+        file_ = mkostemp(temporary_.data(), O_CLOEXEC);
+        if (file_ >= 0) { // where a file system has no permissions there are none to keep
+            static_cast<void>(fchmod(file_, exists ? there.st_mode & 07777 : default_mode()));
+        }
     }
     if (file_ < 0) {
-        const int error = errno;
-        temporary_.clear(); // not ours
-        fail(error);
+        fail(errno);
     }
 }
 
