@@ -216,10 +216,6 @@ def test_a_dash_is_no_file_that_is_written(tmp_path, option):
     assert files(tmp_path) == []
 
 
-def test_bags_and_pairs(tmp_path):
-    check_refused(run("tiled", "--bags", "--pairs", cwd=tmp_path), "--bags", "--pairs")
-
-
 def catches(process, number):
     """Whether a process has a handler for a signal yet."""
     status = Path(f"/proc/{process.pid}/status").read_text()
@@ -263,7 +259,7 @@ def test_no_room_to_write(tmp_path):
         done = subprocess.run([PROGRAM, "binary", "--json", "report.json"], cwd=tmp_path,
                               stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
     check_refused(done, "standard output", "No space left")
-    for asked in (["--help"], ["binary", "--help"], ["tiled", "--version"]):
+    for asked in (["--help"], ["binary", "--help"], ["binary", "--version"]):
         with open("/dev/full", "w") as full:
             done = subprocess.run([PROGRAM, *asked], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
         check_refused(done, "standard output", "No space left")

@@ -42,6 +42,13 @@ def test_left_out():
     assert "libopencv-dev" in result.stderr
 
 
+def test_bags_and_pairs():
+    result = tiled("--bags", "--pairs")
+    assert result.returncode == 2
+    assert "--bags" in result.stderr and "--pairs" in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
 def report(tmp_path, *arguments):
     file = tmp_path / "report.json"
     result = tiled(*arguments, "--json", file)
