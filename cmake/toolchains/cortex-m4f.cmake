@@ -2,6 +2,7 @@
 # Arm Cortex-M4 with a floating-point unit: QEMU's MPS2 board AN386.
 set(rlvc_triple arm-none-eabi)
 set(RLVC_FLOATING_POINT ON)
+set(RLVC_LONG_BALANCE ON) # the M7 plays it to the end in each run of the tests
 set(rlvc_machine "-mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16")
 set(rlvc_flash 0x0)
 set(rlvc_flash_size 0x400000)
