@@ -22,6 +22,7 @@
 #include "rlvc/vision.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -393,6 +394,7 @@ void run(const std::string &model, const std::string &name, const std::string &o
 } // namespace
 
 int main(int argc, char **argv) {
+    std::signal(SIGXFSZ, SIG_IGN); // at a limit of a file's size the write fails, and says so
     const std::vector<std::string> words(argv + 1, argv + argc);
     try {
         if (words.size() >= 4 && words[0] == "learn") {

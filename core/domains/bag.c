@@ -19,13 +19,14 @@ rlvc_layout rlvc_bag_layout(const rlvc_bags *bags) {
 }
 
 float rlvc_bags_needed(const void *feature) {
-    float needed;
-    memcpy(&needed, feature, sizeof needed);
+    float needed = -1.0f;
+    if (feature != NULL)
+        memcpy(&needed, feature, sizeof needed);
     return needed;
 }
 
 uint32_t rlvc_bags_count(const void *feature) {
-    return rlvc_vectors_count((const unsigned char *)feature + 4u);
+    return feature != NULL ? rlvc_vectors_count((const unsigned char *)feature + 4u) : 0;
 }
 
 /* The vectors of a feature lie behind its count as those of a percept do. */

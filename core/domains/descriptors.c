@@ -23,8 +23,9 @@ static rlvc_layout layout_of(const rlvc_descriptors *d) {
 }
 
 float rlvc_descriptors_radius(const void *feature) {
-    float radius;
-    memcpy(&radius, feature, sizeof radius);
+    float radius = -1.0f;
+    if (feature != NULL)
+        memcpy(&radius, feature, sizeof radius);
     return radius;
 }
 

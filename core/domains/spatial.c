@@ -102,6 +102,8 @@ rlvc_status rlvc_spatial_domain(rlvc_spatial *spatial, rlvc_domain *domain) {
 }
 
 int rlvc_spatial_is_pair(const rlvc_spatial *spatial, const void *feature) {
+    if (spatial == NULL || feature == NULL)
+        return 0;
     const rlvc_layout layout = layout_of(spatial);
     rlvc_pattern pattern;
     rlvc_vectors_read(&layout, feature, &pattern);

@@ -188,10 +188,15 @@ static int candidates(void *ctx, const rlvc_samples *samples, uint32_t first, ui
 
 /* ------------------------------------------------------------------ the detector */
 
-rlvc_threshold rlvc_thresholds_feature(const void *record) {
+static rlvc_threshold feature_of(const void *record) {
     rlvc_threshold feature;
     memcpy(&feature, record, sizeof feature);
     return feature;
+}
+
+rlvc_threshold rlvc_thresholds_feature(const void *record) {
+    const rlvc_threshold none = {RLVC_THRESHOLDS_NONE, 0.0f, 0, 0};
+    return record != NULL ? feature_of(record) : none;
 }
 
 static direction direction_of(const rlvc_threshold *feature) {
@@ -201,7 +206,7 @@ static direction direction_of(const rlvc_threshold *feature) {
 }
 
 static int exhibits(void *ctx, const void *percept, const void *feature, uint8_t *present) {
-    const rlvc_threshold wanted = rlvc_thresholds_feature(feature);
+    const rlvc_threshold wanted = feature_of(feature);
     const direction along = direction_of(&wanted);
     (void)ctx;
     if (!has_value(&along, percept))
@@ -215,7 +220,7 @@ static int detect(void *ctx, const rlvc_samples *samples, uint32_t first, uint32
     const unsigned char *record = (const unsigned char *)features;
     (void)ctx;
     for (uint32_t j = 0; j < m; j++, record += RLVC_THRESHOLDS_FEATURE_BYTES) {
-        const rlvc_threshold wanted = rlvc_thresholds_feature(record);
+        const rlvc_threshold wanted = feature_of(record);
         const direction along = direction_of(&wanted);
         uint64_t column = 0;
         for (uint32_t i = 0; i < n; i++) {
@@ -250,7 +255,7 @@ static void put_number(line *to, float number) {
 }
 
 static int name(void *ctx, const void *feature, char *text, uint32_t room) {
-    const rlvc_threshold named = rlvc_thresholds_feature(feature);
+    const rlvc_threshold named = feature_of(feature);
     line to = {text, room};
     (void)ctx;
     put(&to, "x[");
@@ -276,7 +281,7 @@ static int check_percept(void *ctx, const void *percept) {
 
 static int check_feature(void *ctx, const void *feature) {
     const rlvc_thresholds *t = (const rlvc_thresholds *)ctx;
-    const rlvc_threshold checked = rlvc_thresholds_feature(feature);
+    const rlvc_threshold checked = feature_of(feature);
     const float cutpoint = checked.cutpoint, slope = checked.slope;
     const int oblique = slope != 0.0f; /* of a NaN, too */
     return !(checked.component < t->components && cutpoint - cutpoint == 0.0f &&

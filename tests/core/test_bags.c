@@ -135,6 +135,8 @@ static void test_nearest(void **state) {
     assert_int_equal(rlvc_bags_nearest(NULL, percept(1), bag(1), 0, NULL, NULL), RLVC_E_NULL);
     assert_int_equal(rlvc_bags_nearest(&bags, NULL, bag(1), 0, NULL, NULL), RLVC_E_NULL);
     assert_int_equal(rlvc_bags_nearest(&bags, percept(1), NULL, 0, NULL, NULL), RLVC_E_NULL);
+    assert_int_equal(rlvc_bags_count(NULL), 0);
+    assert_true(rlvc_bags_needed(NULL) < 0.0f);
 }
 
 /* ------------------------------------------------------------------ gathering */

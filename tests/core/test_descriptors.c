@@ -300,6 +300,7 @@ static void test_nearest(void **state) {
                      RLVC_E_NULL);
     assert_int_equal(rlvc_descriptors_nearest(&f.s.vectors, percept(0), NULL, NULL, NULL),
                      RLVC_E_NULL);
+    assert_true(rlvc_descriptors_radius(NULL) < 0.0f);
 }
 
 static void test_name(void **state) {

@@ -92,12 +92,21 @@ static void test_ties(void **state) {
     assert_true(rlvc_exact_sum_float(&sum) == tie);
 }
 
+static void test_null(void **state) {
+    (void)state;
+    rlvc_exact_sum sum = {{0}};
+    rlvc_exact_sum_add(&sum, 1.5f, 2);
+    rlvc_exact_sum_add(NULL, 1.0f, 1);
+    rlvc_exact_sum_join(NULL, &sum);
+    rlvc_exact_sum_join(&sum, NULL);
+    assert_true(rlvc_exact_sum_float(&sum) == 3.0f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_any_order),
-        cmocka_unit_test(test_one_number),
-        cmocka_unit_test(test_rounded_once),
-        cmocka_unit_test(test_ties),
+        cmocka_unit_test(test_any_order),    cmocka_unit_test(test_one_number),
+        cmocka_unit_test(test_rounded_once), cmocka_unit_test(test_ties),
+        cmocka_unit_test(test_null),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -291,6 +291,8 @@ static void test_nearest(void **state) {
         }
     set_count(0, 2);
     assert_int_equal(rlvc_spatial_nearest(&f.s, percept(0), feature(0), point, NULL), RLVC_OK);
+    assert_int_equal(rlvc_spatial_is_pair(NULL, feature(0)), 0);
+    assert_int_equal(rlvc_spatial_is_pair(&f.s, NULL), 0);
     assert_int_equal(rlvc_spatial_nearest(NULL, percept(0), feature(0), point, NULL), RLVC_E_NULL);
     assert_int_equal(rlvc_spatial_nearest(&f.s, NULL, feature(0), point, NULL), RLVC_E_NULL);
     assert_int_equal(rlvc_spatial_nearest(&f.s, percept(0), NULL, point, NULL), RLVC_E_NULL);

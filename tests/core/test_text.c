@@ -197,6 +197,10 @@ static void test_spelling(void **state) {
         assert_int_equal(text[length], '\0');
         assert_int_equal(text[length + 1u], '#');
     }
+    char one = '#';
+    assert_int_equal(rlvc_spell(1.0f, 9, &one, 0), 0);
+    assert_int_equal(rlvc_spell(1.0f, 9, NULL, 8), 0);
+    assert_int_equal(one, '#');
 }
 
 /* The first failure sticks, and nothing is written after it. */

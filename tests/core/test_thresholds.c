@@ -313,6 +313,7 @@ static void test_status(void **state) {
     assert_int_equal(rlvc_thresholds_domain(&thresholds, NULL), RLVC_E_NULL);
     assert_int_equal(rlvc_thresholds_check(NULL, x), RLVC_E_NULL);
     assert_int_equal(rlvc_thresholds_check(&thresholds, NULL), RLVC_E_NULL);
+    assert_true(rlvc_thresholds_feature(NULL).cutpoint == RLVC_THRESHOLDS_NONE);
     check_refused(0, 15, 0);
     check_refused(RLVC_THRESHOLDS_COMPONENTS_MAX + 1u, 15, 0);
     check_refused(RLVC_THRESHOLDS_OBLIQUE_MAX + 1u, 15, 1);

@@ -6,6 +6,7 @@ RLVC_COIL100 names a folder of COIL-100 photographs for the tests that want them
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 
@@ -17,9 +18,9 @@ CAMERA = os.environ.get("RLVC_CAMERA")
 COIL100 = os.environ.get("RLVC_COIL100")
 
 
-def run(*arguments, program=PROGRAM, cwd=None):
+def run(*arguments, program=PROGRAM, cwd=None, preexec_fn=None):
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True,
-                          errors="replace", timeout=500, cwd=cwd)
+                          errors="replace", timeout=500, cwd=cwd, preexec_fn=preexec_fn)
 
 
 def tiled(*arguments):
@@ -389,6 +390,27 @@ def test_camera(tmp_path):
     assert len(list(overlay.iterdir())) == 3
     for wrong in ("run", tmp_path / "nowhere", tmp_path / "run0"), ("run", model, overlay / "no"):
         assert run(*wrong, program=CAMERA).returncode == 2
+
+
+@pytest.mark.skipif(not CAMERA, reason="the camera example was not built")
+@pytest.mark.parametrize("kept", ["metric", "agent"])
+def test_camera_and_files_too_large_for_the_process(tmp_path, kept):
+    for thing in range(2):
+        (tmp_path / f"learn{thing}").mkdir()
+        write(tmp_path / f"learn{thing}/0.ppm", picture(thing, 0))
+    sources = tmp_path / "learn0", tmp_path / "learn1"
+    model = tmp_path / "model"
+    assert run("learn", model, *sources, program=CAMERA).returncode == 0
+    before = {file.name: file.read_bytes() for file in tmp_path.glob("model*")}
+    room = 10 if kept == "metric" else len(before["model.metric"])
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+
+    refused = run("learn", model, *sources, program=CAMERA, preexec_fn=limit)
+    assert refused.returncode == 2
+    assert f"model.{kept}" in refused.stderr
+    assert {file.name: file.read_bytes() for file in tmp_path.glob("model*")} == before
 
 
 @pytest.mark.skipif(not COIL100, reason="RLVC_COIL100 does not name a folder of COIL-100 pictures")

@@ -331,14 +331,25 @@ static void test_text_comes_back(void **state) {
         }
 }
 
+static unsigned permissions(const char *path) {
+    struct stat there;
+    assert_int_equal(stat(path, &there), 0);
+    return there.st_mode & 07777u;
+}
+
 static void test_files(void **state) {
     (void)state;
     rlvc_vision_error error;
     rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_INVARIANTS);
     rlvc_metric *metric = fitted(&config, RLVC_METRIC_COVARIANCE), *read = NULL;
     static const char path[] = "test_metric_kept.json";
+    const mode_t mask = umask(027);
     assert_ok(rlvc_metric_save(metric, path, &error));
+    assert_int_equal(permissions(path), 0640);
+    assert_int_equal(chmod(path, 0604), 0);
     assert_ok(rlvc_metric_save(metric, path, &error));
+    assert_int_equal(permissions(path), 0604);
+    assert_int_equal(umask(mask), 027);
     assert_ok(rlvc_metric_load(path, &read, &error));
     assert_true(rlvc_metric_tau(read) == rlvc_metric_tau(metric));
     rlvc_metric_destroy(read);

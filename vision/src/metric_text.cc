@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <random>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -153,6 +154,27 @@ void sync_folder_of(const std::string &path) {
     close(opened);
 }
 
+// Makes a file beside another: its name, which nobody can foresee, is put after the other's. It has
+// the permissions of a new file; to ask for the process's mask would change it for other threads.
+int create_beside(std::string &name) {
+    std::random_device random;
+    char ending[32];
+    std::snprintf(ending, sizeof ending, ".%08x%08x", random(), random());
+    name += ending;
+    return open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+}
+
+bool write_all(int file, const std::string &text) {
+    size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t n = write(file, text.data() + done, text.size() - done);
+        if (n < 0 && errno != EINTR)
+            return false;
+        done += n > 0 ? static_cast<size_t>(n) : 0;
+    }
+    return true;
+}
+
 } // namespace
 
 std::string text_of(const rlvc_metric &metric) {
@@ -219,18 +241,15 @@ void replace_file(const char *path, const std::string &text) {
     const bool exists = lstat(path, &there) == 0;
     if (exists && !S_ISREG(there.st_mode))
         refuse_kind(path);
-    std::string beside = std::string(path) + ".XXXXXX"; // a name that nobody can foresee
-    const int made = mkstemp(&beside[0]);
-    if (made < 0)
+    if (exists && access(path, W_OK) != 0)
         refuse_file("write", path);
-    const mode_t mask = umask(0);
-    umask(mask);
-    const mode_t mode = exists ? there.st_mode & 07777 : 0666 & ~mask;
-    File file(fdopen(made, "wb"), std::fclose);
-    const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
-                         std::fflush(file.get()) == 0 && fchmod(made, mode) == 0 &&
-                         fsync(made) == 0;
-    const bool closed = std::fclose(file.release()) == 0;
+    std::string beside = path;
+    const int file = create_beside(beside);
+    if (file < 0)
+        refuse_file("write", path);
+    const bool written = write_all(file, text) &&
+                         (!exists || fchmod(file, there.st_mode & 07777) == 0) && fsync(file) == 0;
+    const bool closed = close(file) == 0;
     if (!written || !closed || std::rename(beside.c_str(), path) != 0) {
         const int cause = errno;
         std::remove(beside.c_str());

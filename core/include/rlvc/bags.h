@@ -57,7 +57,8 @@ RLVC_API rlvc_status rlvc_bags_default(rlvc_bags *bags, uint32_t points, uint32_
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_bags_domain(rlvc_bags *bags, rlvc_domain *domain);
 
-/* How many vectors a feature has; how much a percept needs. O(1). */
+/* How many vectors a feature has; how much a percept needs. A null pointer has no vector and is
+ * exhibited by no percept: 0 and -1. O(1). */
 RLVC_API uint32_t rlvc_bags_count(const void *feature);
 RLVC_API float rlvc_bags_needed(const void *feature);
 

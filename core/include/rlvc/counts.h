@@ -38,12 +38,12 @@ typedef struct rlvc_exact_sum {
     uint64_t word[RLVC_EXACT_SUM_WORDS];
 } rlvc_exact_sum;
 
-/* Adds x, `count` times, to a sum that began with all 0. O(1).
+/* Adds x, `count` times, to a sum that began with all 0. Does nothing for a null pointer. O(1).
  * @param x     a reward, within +-RLVC_REWARD_MAX
  * @param count the counts of all that is added add up to RLVC_COUNTS_MAX at most */
 RLVC_API void rlvc_exact_sum_add(rlvc_exact_sum *sum, float x, uint64_t count);
 
-/* Adds another sum. O(1). */
+/* Adds another sum. Does nothing for a null pointer. O(1). */
 RLVC_API void rlvc_exact_sum_join(rlvc_exact_sum *sum, const rlvc_exact_sum *other);
 
 /* Interactions that are alike. */

@@ -74,7 +74,7 @@ RLVC_API rlvc_status rlvc_descriptors_default(rlvc_descriptors *descriptors, uin
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_descriptors_domain(rlvc_descriptors *descriptors, rlvc_domain *domain);
 
-/* The radius of a feature. O(1). */
+/* The radius of a feature; of a null pointer -1, as of one that no percept exhibits. O(1). */
 RLVC_API float rlvc_descriptors_radius(const void *feature);
 
 /* Which vector of a percept is the nearest to that of a feature (of equals the first), and how far

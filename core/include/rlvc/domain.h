@@ -124,8 +124,8 @@ typedef struct rlvc_domain {
 
 /* Spells a finite number in decimal as rlvc_print does, for name(): by the fewest significant
  * digits that read back as the same float, at most nine, or rounded to `digits`, [1, 9], if these
- * are fewer. At most `room` - 1 characters, room at least 1, and a final 0. O(1).
- * @return how many characters. */
+ * are fewer. At most `room` - 1 characters and a final 0; nothing where there is no room. O(1).
+ * @return how many characters; 0 for a null pointer. */
 RLVC_API uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room);
 
 #ifdef __cplusplus

@@ -62,7 +62,7 @@ RLVC_API rlvc_status rlvc_spatial_default(rlvc_spatial *spatial, uint32_t points
 RLVC_API rlvc_status rlvc_spatial_domain(rlvc_spatial *spatial, rlvc_domain *domain);
 
 /* Is a feature a pair? O(1).
- * @return 1 or 0. */
+ * @return 1 or 0; 0 for a null pointer. */
 RLVC_API int rlvc_spatial_is_pair(const rlvc_spatial *spatial, const void *feature);
 
 /* Which points of a percept are nearest to a feature (of equals the first), and how far they are,

@@ -83,7 +83,8 @@ RLVC_API rlvc_status rlvc_thresholds_policy_domain(rlvc_thresholds *thresholds,
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE: a NaN, an infinite number, or one out of range. */
 RLVC_API rlvc_status rlvc_thresholds_check(const rlvc_thresholds *thresholds, const void *percept);
 
-/* The feature of a record, which need not be aligned. O(1). */
+/* The feature of a record, which need not be aligned; of a null pointer that of a candidate without
+ * a cutpoint. O(1). */
 RLVC_API rlvc_threshold rlvc_thresholds_feature(const void *record);
 
 #ifdef __cplusplus

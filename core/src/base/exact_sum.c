@@ -19,6 +19,8 @@ static void add_word(rlvc_exact_sum *sum, uint32_t at, uint64_t word, int negati
 }
 
 void rlvc_exact_sum_add(rlvc_exact_sum *sum, float x, uint64_t count) {
+    if (sum == NULL)
+        return;
     uint32_t bits = rlvc_bits_of(x);
     uint32_t exponent = bits >> 23 & 255u;
     uint64_t mantissa = bits & 0x007fffffu;
@@ -37,6 +39,8 @@ void rlvc_exact_sum_add(rlvc_exact_sum *sum, float x, uint64_t count) {
 }
 
 void rlvc_exact_sum_join(rlvc_exact_sum *sum, const rlvc_exact_sum *other) {
+    if (sum == NULL || other == NULL)
+        return;
     for (uint32_t i = 0; i < WORDS; i++)
         add_word(sum, i, other->word[i], 0);
 }

@@ -193,6 +193,8 @@ static int keep(void *ctx, const char *bytes, size_t count) {
 }
 
 uint32_t rlvc_spell(float number, uint32_t digits, char *text, uint32_t room) {
+    if (text == NULL || room == 0)
+        return 0;
     spelling kept = {text, room - 1u, 0};
     rlvc_text to = {keep, &kept, RLVC_OK};
     rlvc_text_float(&to, number, digits);

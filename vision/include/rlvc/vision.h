@@ -230,8 +230,10 @@ RLVC_API void rlvc_metric_config(const rlvc_metric *metric, rlvc_vision_config *
 RLVC_API uint32_t rlvc_metric_kind(const rlvc_metric *metric);
 
 /* Writes the metric as JSON, replacing the file as a whole: it holds the old or the new metric,
- * also after a loss of power. Its permissions are kept. O(D^2).
- * @return RLVC_VISION_OK; RLVC_VISION_E_FILE: also if it is a link, a FIFO or a device. */
+ * also after a loss of power. Its permissions are kept. A library leaves signals alone: a program
+ * that may meet a limit of a file's size ignores SIGXFSZ, so that the write fails. O(D^2).
+ * @return RLVC_VISION_OK; RLVC_VISION_E_FILE: also if it is a link, a FIFO, a device or
+ *         write-protected. */
 RLVC_API rlvc_vision_status rlvc_metric_save(const rlvc_metric *metric, const char *path,
                                              rlvc_vision_error *error);
 
