@@ -66,6 +66,57 @@ def test_what_is_harmless_is_the_same(changed):
     assert repr(learnt(**changed)) == repr(learnt())
 
 
+class Walk(gymnasium.Env):
+    """A walk to and fro, which always returns one array, written over, if it is shared."""
+
+    action_space = spaces.Discrete(2)
+
+    def __init__(self, space, shared):
+        self.observation_space, self.shared = space, shared
+        self.seen = np.zeros(2, space.dtype)
+        self.info = {"action_mask": np.ones(2, np.int8)}
+
+    def tell(self):
+        seen = self.seen if self.shared else np.zeros_like(self.seen)
+        info = self.info if self.shared else {"action_mask": np.ones(2, np.int8)}
+        seen[:] = abs(self.place), self.left % 2
+        info["action_mask"][:] = 1, self.left % 3 != 0
+        return seen, info
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.place, self.left = int(self.np_random.integers(-2, 3)), 9
+        return self.tell()
+
+    def step(self, action):
+        self.place, self.left = self.place + 2 * int(action) - 1, self.left - 1
+        return self.tell()[0], float(self.place == 2), abs(self.place) == 4, self.left == 0, self.tell()[1]
+
+
+@pytest.mark.parametrize("space", [spaces.MultiDiscrete([5, 2]), spaces.Box(0, 5, (2,), np.float32)])
+@pytest.mark.parametrize("hold", [1, 2])
+def test_an_environment_may_write_over_its_observation(space, hold):
+    """Most of all when it is reset: what ended an episode was seen before."""
+    runs = [rlvc.learn(Walk(space, shared), 800, seed=1, hold=hold) for shared in (False, True)]
+    texts = [run.text() for run in runs]
+    assert texts[0] == texts[1]
+    assert repr(runs[0].history) == repr(runs[1].history)
+    for env in (Walk(space, False), Walk(space, True)):
+        assert runs[0].evaluate(env, 20).returns.tolist() == runs[1].evaluate(env, 20).returns.tolist()
+
+
+@pytest.mark.parametrize("space", [spaces.MultiDiscrete([5, 2]), spaces.Box(0, 5, (2,), np.float32)])
+@pytest.mark.parametrize("mode", ["NEXT_STEP", "DISABLED"])
+def test_a_vector_may_write_over_its_batch(space, mode):
+    runs = []
+    for shared in (False, True):
+        env = gymnasium.vector.SyncVectorEnv([lambda: Walk(space, shared)] * 3, copy=not shared,  # noqa: B023
+                                             autoreset_mode=gymnasium.vector.AutoresetMode[mode])  # fmt: skip
+        runs.append(rlvc.learn(env, 900, seed=1))
+    assert runs[0].text() == runs[1].text()
+    assert repr(runs[0].history) == repr(runs[1].history)
+
+
 def fifth(value):
     """That value from the fifth call on."""
     calls = []

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -135,7 +136,8 @@ class Environment:
         -------
         observation, float, bool, bool
             What it led to, the sum of the rewards, terminated and truncated. If the episode ended,
-            the environment is reset: ``current`` is the first observation of the next.
+            call :meth:`restart`, when what it led to is no longer needed: an environment may write
+            over its observation.
         """
         actions = self.actions
         following, reward, terminated, truncated, info = boundary.step(
@@ -148,9 +150,7 @@ class Environment:
                 self.env, actions.of(index)
             )
             reward += more
-        if terminated or truncated:
-            self.restart()
-        elif info.__class__ is not dict or info or self.masks is not None or isinstance(following, dict):
+        if info.__class__ is not dict or info or self.masks is not None or isinstance(following, dict):
             self._see(following, info)
         else:
             self.current = following
@@ -173,7 +173,7 @@ class Environment:
             for i in np.flatnonzero(over):
                 reached[i] = info["final_obs"][i]
         elif self.manual and over.any():
-            reached = self.split(following)  # the environments may write over the batch
+            reached = copy.deepcopy(self.split(following))  # the environments may write over it
             following, info = boundary.reset(self.env, options={"reset_mask": over})
         elif not self.same_step:
             self.dead = over

@@ -101,9 +101,8 @@ def _play(
                 action = best_allowed(run, percept, action, stream.masks[0])
             _, reward, terminated, truncated = stream.step(action)
             total, length, over = total + reward, length + 1, terminated or truncated
-        if not over:
-            cut += 1
-            stream.restart()
+        cut += not over
+        stream.restart()
         returns.append(total)
         lengths.append(length)
     return Evaluation(np.array(returns), np.array(lengths), cut)

@@ -147,6 +147,7 @@ def _one(run: Run, learner: Interaction) -> Iterator[None]:
         run.seen.add(percept)
         observe(choice, reward, percept, terminated, truncated)
         if terminated or truncated:
+            stream.restart()
             begin(encode(stream.current))
         if learner.due(learner.done - 1):
             yield

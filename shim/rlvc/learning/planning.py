@@ -83,6 +83,8 @@ def episodes(run: Run, learner: Interaction) -> Iterator[None]:
         percept = run.percept(reached)
         run.seen.add(percept.tobytes())
         planner.observe(action, reward, percept, *ends)
+        if any(ends):
+            stream.restart()
         steps += 1
         if any(ends) or steps == planner.config.horizon:
             steps = 0
