@@ -20,7 +20,7 @@ import pytest
 import worlds
 
 import rlvc
-from rlvc.errors import ConfigError, CountError, Error, LogError
+from rlvc.errors import ConfigError, CountError, Error, LogError, StoreError
 
 pytest.importorskip("pyarrow")
 import pyarrow as pa
@@ -168,6 +168,29 @@ def test_whole_episodes_in_each_file(tmp_path, some):
     assert 0 not in ends
     kept = np.concatenate([pq.read_table(file)["reward"].to_numpy() for file in files])
     np.testing.assert_array_equal(kept, some.rewards)
+
+
+def test_a_conversion_that_fails_leaves_no_empty_folder(tmp_path, some, monkeypatch):
+    log, folder = worlds.log_of(some), tmp_path / "logs/today"
+    with pytest.raises(StoreError, match="File name too long"):
+        rlvc.fleet.convert(log, folder, actions=4, prefix="x" * 300)
+    assert os.listdir(tmp_path) == []
+    folder.mkdir(parents=True)
+    with pytest.raises(StoreError, match="File name too long"):
+        rlvc.fleet.convert(log, folder, actions=4, prefix="x" * 300)
+    assert os.listdir(folder) == []
+    module = sys.modules["rlvc.fleet.convert"]
+    put = module._put
+
+    def interrupted(filesystem, path, content):
+        if path.endswith("-00001.parquet"):
+            raise KeyboardInterrupt
+        put(filesystem, path, content)
+
+    monkeypatch.setattr(module, "_put", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        rlvc.fleet.convert(log, tmp_path / "half", actions=4, file_rows=3000)
+    assert os.listdir(tmp_path / "half") == ["part-00000.parquet"]
 
 
 def test_another_version(tmp_path, some):

@@ -203,6 +203,33 @@ def test_damaged_frames_are_refused_by_one_sentence(tmp_path, some):
     assert not any("\n" in text for text in said)
 
 
+def test_links_that_lead_back(tmp_path, some):
+    """Two loops in one folder have as many paths as there are binary numbers."""
+    folder = lerobot(tmp_path / "set", some, "v3.0", 2)
+    lost = rlvc.fleet.learn_from(folder, actions=4).report.lost
+    chunk = folder / "data/chunk-000"
+    for name, to in (("again", "."), ("up", ".."), ("out", "../.."), ("far", tmp_path)):
+        (chunk / name).symlink_to(to, target_is_directory=True)
+    (folder / "data/chunk-001").symlink_to(chunk, target_is_directory=True)
+    (folder / "data/a.parquet").symlink_to(chunk / "file-000.parquet")
+    (chunk / "gone.parquet").symlink_to("nowhere")
+    (chunk / "itself.parquet").symlink_to("itself.parquet")
+    report = rlvc.fleet.learn_from(folder, actions=4).report
+    assert (report.interactions, report.lost) == (COUNT - lost, lost)
+
+
+def test_links_to_elsewhere(tmp_path, some):
+    """As in the caches of those who share data sets: the files themselves have other names."""
+    folder = lerobot(tmp_path / "set", some, "v3.0", 2)
+    lost = rlvc.fleet.learn_from(folder, actions=4).report.lost
+    (tmp_path / "kept").mkdir()
+    for file in sorted((folder / "data/chunk-000").iterdir()):
+        kept = file.rename(tmp_path / "kept" / file.stem)
+        file.symlink_to(kept)
+    report = rlvc.fleet.learn_from(folder, actions=4).report
+    assert (report.interactions, report.lost) == (COUNT - lost, lost)
+
+
 def test_names_that_are_not_utf8(tmp_path, some):
     folder = lerobot(tmp_path / "set", some, "v3.0", 1)
     try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import secrets
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -81,7 +82,7 @@ def convert(
     Notes
     -----
     Each file is written as a whole or not at all, also if writing fails or is interrupted; those
-    before it are there.
+    before it are there. A folder that was made is removed again if nothing came into it.
     """
     file_rows = whole("file_rows", file_rows, 1, 2**31)
     if not isinstance(folder, str | Path) or not str(folder):
@@ -110,18 +111,35 @@ def _written(
     """Write the files; return their names."""
     bits, count, file_rows = sizes
     filesystem, within = filesystem_of(folder)
-    filesystem.create_dir(within, recursive=True)
-    names = []
-    for number, some in enumerate(_episodes(all_of_it.ends, file_rows)):
-        exploited = None if choices is None else choices[some]
-        name = f"{prefix}-{number:05d}.parquet"
-        content = io.BytesIO()
-        writer = layout.Writer(content, bits, count, exploited is not None)
-        writer.write(_cut(all_of_it, some), exploited)
-        writer.close()
-        _put(filesystem, f"{within}/{name}", content.getvalue())
-        names.append(f"{folder.rstrip('/')}/{name}")
+    names: list[str] = []
+    with _folder(filesystem, within):
+        for number, some in enumerate(_episodes(all_of_it.ends, file_rows)):
+            exploited = None if choices is None else choices[some]
+            name = f"{prefix}-{number:05d}.parquet"
+            content = io.BytesIO()
+            writer = layout.Writer(content, bits, count, exploited is not None)
+            writer.write(_cut(all_of_it, some), exploited)
+            writer.close()
+            _put(filesystem, f"{within}/{name}", content.getvalue())
+            names.append(f"{folder.rstrip('/')}/{name}")
     return names
+
+
+@contextlib.contextmanager
+def _folder(filesystem: Any, within: str) -> Iterator[None]:
+    """Make a folder, and remove on failure what was made of it if it is still empty."""
+    missing = []
+    if isinstance(filesystem, layout.arrow().fs.LocalFileSystem):
+        folders = [Path(within), *Path(within).parents]
+        missing = [folder for folder in folders if not os.path.lexists(folder)]
+    try:
+        filesystem.create_dir(within, recursive=True)
+        yield
+    except BaseException:
+        with contextlib.suppress(OSError):
+            for folder in missing:
+                folder.rmdir()
+        raise
 
 
 def _put(filesystem: Any, path: str, content: bytes) -> None:

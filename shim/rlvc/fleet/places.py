@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -48,7 +49,7 @@ def filesystem_of(path: str) -> tuple[Any, str]:
 
 
 def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
-    """Return a file, or those below a folder, in order of their names.
+    """Return a file, or those below a folder, in order of their names, each once.
 
     Parameters
     ----------
@@ -69,21 +70,50 @@ def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
             return [path]
         if info.type != pa.fs.FileType.Directory:
             raise LogError(f"{path}: no such file or folder")
-        below = filesystem.get_file_info(pa.fs.FileSelector(within, recursive=True))
-        names = [entry.path for entry in below if entry.type == pa.fs.FileType.File]
-    except UnicodeDecodeError:
+        local = isinstance(filesystem, pa.fs.LocalFileSystem)
+        names = _below(within) if local else _below_address(filesystem, within)
+    except UnicodeError:
         raise LogError(f"{path}: Arrow knows no name that is not UTF-8, as of a file in it") from None
     except (OSError, pa.ArrowException) as error:
         raise LogError(f"{path}: cannot be listed: {error}") from error
-    scheme = path.partition("://")[0] + "://" if "://" in path else ""
     kept: list[str] = []
     for some in endings:
         kept = kept or [name for name in sorted(names) if Path(name).suffix in some]
+    if local:  # a file that links lead to counts once
+        kept = sorted({os.path.realpath(name): name for name in reversed(kept)}.values())
+    scheme = path.partition("://")[0] + "://" if "://" in path else ""
     if not kept:
         *most, last = (ending for some in endings for ending in some)
         either = f"{', '.join(most)} or {last}" if most else last
         raise LogError(f"{path}: holds no file that ends in {either}")
     return [scheme + name for name in kept]
+
+
+def _below(folder: str) -> list[str]:
+    """Return the files below a folder of this machine, where links may lead back."""
+
+    def refuse(error: OSError) -> None:
+        raise error
+
+    around = Path(os.path.realpath(folder))
+    known = {str(around)}
+    files: list[str] = []
+    for where, folders, names in os.walk(folder, onerror=refuse, followlinks=True):
+        files += filter(os.path.isfile, (os.path.join(where, name) for name in names))
+        inner = {name: os.path.realpath(os.path.join(where, name)) for name in sorted(folders)}
+        folders.clear()
+        for name, real in inner.items():
+            if real not in known and not around.is_relative_to(real):
+                known.add(real)
+                folders.append(name)
+    "".join(files).encode()
+    return files
+
+
+def _below_address(filesystem: Any, within: str) -> list[str]:
+    fs = layout.arrow().fs
+    below = filesystem.get_file_info(fs.FileSelector(within, recursive=True))
+    return [entry.path for entry in below if entry.type == fs.FileType.File]
 
 
 @contextlib.contextmanager
