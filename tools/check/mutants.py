@@ -6,9 +6,10 @@ then fails. A mutant that no test tells from the original shows what the tests d
 Operators: relations, arithmetic, bits, constants, negated conditions, deleted statements. Left out are mutants that
 do not compile, or compile to the same code. A test gets five times the processor time that it needs; a mutant that
 takes more counts as killed. Those that live must be in tools/check/mutants.txt with a reason, else they count
-against --least. Needs gcc, clang 19 (which tests reach which function), cmocka."""
+against --least. Needs gcc, cmocka, and that tools/coverage has run, which counts what each test reaches."""
 
 import argparse
+import collections
 import concurrent.futures
 import functools
 import hashlib
@@ -18,16 +19,22 @@ import pathlib
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
 from typing import NamedTuple
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/mutants"
+PROFILES = ROOT / "build/coverage/profiles"  # of each test of the core, what tools/coverage has counted
 JUDGED = pathlib.Path(__file__).with_suffix(".txt")
 FOLDERS = ("core/src", "core/domains")
 FLAGS = ["-std=c99", "-w", "-ffp-contract=off", "-fPIC", f"-I{ROOT}/core/include", "-DRLVC_ASSERTS", "-UNDEBUG"]
+HELPERS = [*sorted((ROOT / "examples/gridworld").glob("*.c")), ROOT / "examples/balance/cart_pole.c"]
+INCLUDE = [f"-I{ROOT}/examples/gridworld", f"-I{ROOT}/examples/balance", f'-DRLVC_GOLDEN_DIR="{ROOT}/tests/golden"',
+           "-DRLVC_POWER_CYCLES=20u", "-DRLVC_STRIDE=7u"]
 
 SWAPS = [
     (r" < ", (" <= ", " >= ")), (r" > ", (" >= ", " <= ")), (r" <= ", (" < ", " > ")), (r" >= ", (" > ", " < ")),
@@ -44,6 +51,7 @@ DECLARATION = re.compile(r"^ +(const |static |unsigned |struct )?(u?int\d*(_t)?|
                          r" \**\w+(\[.*\])?(;| =|,)")
 SKIPPED = re.compile(r"^\s*(#|RLVC_ASSERT)")
 FUNCTION = re.compile(r"(\w+)\(")
+STOPPED = (-signal.SIGXCPU, -signal.SIGKILL)  # for its processor time
 
 
 class Mutant(NamedTuple):
@@ -123,84 +131,85 @@ def ordered(mutants):
 
 # ------------------------------------------------------------------------- the tests
 def run(command, seconds=None, **more):
-    """A command with a limit of processor time; whether it succeeded."""
+    """A command with a limit of processor time: its exit status, and the processor time that it took."""
     def limit():
         if seconds:
             resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limit,
-                          check=False, **more).returncode == 0
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limit, **more) as started:
+        _, status, used = os.wait4(started.pid, 0)
+        started.returncode = os.waitstatus_to_exitcode(status)
+    return started.returncode, used.ru_utime + used.ru_stime
 
 
 def core_sources():
     return sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.c"))
 
 
-def compiled(source, folder, compiler, flags):
+def compiled(source, folder, flags):
     target = folder / (str(source.relative_to(ROOT)).replace("/", "_") + ".o")
-    subprocess.run([*compiler, *FLAGS, *flags, "-iquote", ROOT / "core/src", "-c", source, "-o", target], check=True)
+    subprocess.run(["gcc", *FLAGS, *flags, "-iquote", ROOT / "core/src", "-c", source, "-o", target], check=True)
     return target
 
 
 def build(workers):
-    """The core as objects and as two shared libraries, one that counts, and a program for each test."""
+    """The core as objects, and the shared library of them."""
     shutil.rmtree(BUILD, ignore_errors=True)
-    objects, counting = BUILD / "objects", BUILD / "counting"
-    objects.mkdir(parents=True)
-    counting.mkdir()
-    ccache = ["ccache"] if shutil.which("ccache") else []
-    gcc, clang = [*ccache, "gcc"], ["clang-19"]
-    helpers = [*(ROOT / "examples/gridworld").glob("*.c"), ROOT / "examples/balance/cart_pole.c"]
-    include = [f"-I{ROOT}/examples/gridworld", f"-I{ROOT}/examples/balance",
-               f'-DRLVC_GOLDEN_DIR="{ROOT}/tests/golden"', "-DRLVC_POWER_CYCLES=20u", "-DRLVC_STRIDE=7u"]
-    tests = sorted((ROOT / "tests/core").glob("test_*.c"))
+    (BUILD / "objects").mkdir(parents=True)
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        made = [pool.submit(compiled, source, objects, gcc, ["-O1"]) for source in core_sources()]
-        count = ["-O1", "-fprofile-instr-generate"]
-        counted = [pool.submit(compiled, source, counting, clang, count) for source in core_sources()]
-        helped = [pool.submit(compiled, source, BUILD, gcc, ["-O1", *include]) for source in helpers]
-        linked = [task.result() for task in made]
-        subprocess.run(["gcc", "-shared", "-o", objects / "librlvc-mutant.so", *linked], check=True)
-        subprocess.run(["clang-19", "-shared", "-fprofile-instr-generate", "-o", counting / "librlvc-mutant.so",
-                        *(task.result() for task in counted)], check=True)
-        helpers = [task.result() for task in helped]
-        tried = [pool.submit(compiled, test, BUILD, gcc, ["-O0", *include]) for test in tests]
-        for test, task in zip(tests, tried):
-            subprocess.run(["gcc", "-o", BUILD / test.stem, task.result(), *helpers, f"-L{objects}", "-lrlvc-mutant",
-                            "-lcmocka", "-lm"], check=True)
-    return [test.stem for test in tests]
+        linked = list(pool.map(lambda source: compiled(source, BUILD / "objects", ["-O1"]), core_sources()))
+    subprocess.run(["gcc", "-shared", "-o", BUILD / "objects/librlvc-mutant.so", *linked], check=True)
 
 
-def reached_by(tests, most):
-    """Of each function the tests that call it, and the processor time that each test takes; without the tests that
-    take more than `most` seconds. A second later these are stopped: the limit counts in ticks, and may be early."""
-    limit = None if math.isinf(most) else math.ceil(most) + 1
-    calls, seconds = {}, {}
-    for test in tests:
-        profile = BUILD / f"{test}.profraw"
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = run([BUILD / test], limit, cwd=BUILD, env=os.environ | {"LD_LIBRARY_PATH": str(BUILD / "counting"),
-                                                                "LLVM_PROFILE_FILE": str(profile)})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        seconds[test] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        if seconds[test] > most:
-            continue
-        if not done:
-            raise SystemExit(f"{test} fails without a mutant: run tools/test dev")
-        if not profile.exists():
-            continue  # it calls no function of the core
-        merged = BUILD / f"{test}.profdata"
+def reached_by():
+    """Of each function the tests that call it, by what tools/coverage counted: those first that run the fewest blocks."""
+    reached, blocks = {}, {}
+    for profile in sorted(PROFILES.glob("test_*.profraw")):
+        merged = BUILD / f"{profile.stem}.profdata"
         subprocess.run(["llvm-profdata-19", "merge", "-o", merged, profile], check=True)
         shown = subprocess.run(["llvm-profdata-19", "show", "--all-functions", "--counts", merged], check=True,
                                stdout=subprocess.PIPE, text=True).stdout
-        for name, counts in re.findall(r"^  (\S+):\n(?:    .*\n)*?    Function count: (\d+)", shown, re.M):
-            if int(counts):
-                calls.setdefault(re.split("[:;]", name)[-1], []).append(test)
-    return calls, seconds
+        counts = re.findall(r"^  (\S+):\n(?:    .*\n)*?    Function count: (\d+)", shown, re.M)
+        blocks[profile.stem] = sum(int(n) for line in re.findall(r"Block counts: \[(.*)\]", shown) for n in line.split(", ") if n)
+        reached[profile.stem] = {re.split("[:;]", name)[-1] for name, count in counts if int(count)}
+    if not reached:
+        raise SystemExit(f"{PROFILES.relative_to(ROOT)} is empty: run tools/coverage first")
+    calls = {}
+    for test in sorted(reached, key=blocks.get):
+        for function in reached[test]:
+            calls.setdefault(function, []).append(test)
+    return calls
+
+
+class Tests:
+    """Builds a test when it is first asked for, and finds how much processor time it takes."""
+
+    def __init__(self, most):
+        self.most = most
+        self.locks = collections.defaultdict(threading.Lock)
+        self.found = {}
+        self.helpers = [compiled(source, BUILD, ["-O1", *INCLUDE]) for source in HELPERS]
+
+    def seconds(self, test):
+        """None if it takes more than `most`, or so much that it was stopped."""
+        with self.locks[test]:
+            if test not in self.found:
+                self.found[test] = self.measured(test)
+            return self.found[test]
+
+    def measured(self, test):
+        source = compiled(ROOT / f"tests/core/{test}.c", BUILD, ["-O0", *INCLUDE])
+        subprocess.run(["gcc", "-o", BUILD / test, source, *self.helpers, f"-L{BUILD}/objects", "-lrlvc-mutant", "-lcmocka",
+                        "-lm"], check=True)
+        limit = None if math.isinf(self.most) else math.ceil(self.most)
+        status, seconds = run([BUILD / test], limit, cwd=BUILD, env=os.environ | {"LD_LIBRARY_PATH": str(BUILD / "objects")})
+        if status not in (0, *STOPPED):
+            raise SystemExit(f"{test} fails without a mutant: run tools/test dev")
+        return seconds if status == 0 and seconds <= self.most else None
 
 
 # ------------------------------------------------------------------------- trying one
-def tried(mutant, calls, seconds):
+def tried(mutant, calls, tests):
     """killed by which test; or lives; or not a mutant: does not compile, same code."""
     source = ROOT / mutant.file
     name = mutant.file.replace("/", "_") + ".o"
@@ -211,18 +220,20 @@ def tried(mutant, calls, seconds):
         changed = folder / source.name
         changed.write_text("\n".join(text), encoding="utf-8")
         command = ["gcc", *FLAGS, "-O1", "-iquote", source.parent, "-iquote", ROOT / "core/src", "-c", changed]
-        if not run([*command, "-o", folder / name]):
+        if run([*command, "-o", folder / name])[0]:
             return "does not compile"
         changed.write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
         run([*command, "-o", folder / "same.o"])
         if (folder / name).read_bytes() == (folder / "same.o").read_bytes():
             return "same code"
         others = [path for path in (BUILD / "objects").glob("*.o") if path.name != name]
-        if not run(["gcc", "-shared", "-o", folder / "librlvc-mutant.so", folder / name, *others]):
+        if run(["gcc", "-shared", "-o", folder / "librlvc-mutant.so", folder / name, *others])[0]:
             return "does not compile"
-        for test in sorted(calls.get(mutant.function, []), key=seconds.get):
-            if not run([BUILD / test], math.ceil(5 * seconds[test]) + 1, cwd=folder,
-                       env=os.environ | {"LD_LIBRARY_PATH": str(folder)}):
+        for test in calls.get(mutant.function, []):
+            seconds = tests.seconds(test)
+            if seconds is None:
+                break  # those that follow take longer
+            if run([BUILD / test], math.ceil(5 * seconds) + 1, cwd=folder, env=os.environ | {"LD_LIBRARY_PATH": str(folder)})[0]:
                 return test
     return "lives"
 
@@ -251,10 +262,11 @@ def main():
     mutants = ordered(mutant for file in files for mutant in mutants_of(file))
     last = arguments.skip + arguments.sample if arguments.sample else len(mutants)
     chosen = mutants[arguments.skip:last]
-    calls, seconds = reached_by(build(arguments.workers), arguments.seconds)
+    build(arguments.workers)
+    calls, tests = reached_by(), Tests(arguments.seconds)
     known, counts = judged(), {}
     with concurrent.futures.ThreadPoolExecutor(arguments.workers) as pool:
-        verdicts = pool.map(functools.partial(tried, calls=calls, seconds=seconds), chosen)
+        verdicts = pool.map(functools.partial(tried, calls=calls, tests=tests), chosen)
         for mutant, verdict in zip(chosen, verdicts):
             kind = verdict if " " in verdict or verdict == "lives" else "killed"
             kind = "judged" if kind == "lives" and mutant.key() in known else kind
