@@ -467,6 +467,78 @@ static void test_endings_have_sixteen_leaves_at_most(void **state) {
     assert_int_equal(leaves, RLVC_ENDING_LEAVES);
 }
 
+/* Episodes of one step, each of which terminates with the law's reward of s'. */
+static void end_at_once(uint32_t rows, uint32_t seed, float (*reward)(const float *, rlvc_rng *)) {
+    rlvc_rng rng;
+    rlvc_rng_seed(&rng, seed);
+    for (uint32_t i = 0; i < rows; i++) {
+        float next[2] = {rlvc_rng_uniform(&rng), rlvc_rng_uniform(&rng)};
+        rlvc_experience_begin(&ring, next);
+        rlvc_experience_append(&ring, 0, reward(next, &rng), next, RLVC_TERMINATED);
+    }
+}
+
+static float by_band(const float *s, rlvc_rng *rng) {
+    (void)rng;
+    return s[1] < 0.3f ? -100.0f : s[1] < 0.6f ? 100.0f : -10.0f;
+}
+
+static float by_coin(const float *s, rlvc_rng *rng) {
+    (void)s;
+    return rlvc_rng_uniform(rng) < 0.5f ? -1.0f : 1.0f;
+}
+
+static float by_rare_coin(const float *s, rlvc_rng *rng) {
+    (void)s;
+    return rlvc_rng_uniform(rng) < 0.05f ? 1.0f : 0.0f;
+}
+
+static float by_sum(const float *s, rlvc_rng *rng) {
+    (void)s;
+    float sum = -6.0f;
+    for (int i = 0; i < 12; i++)
+        sum += rlvc_rng_uniform(rng);
+    return 1000.0f + sum;
+}
+
+/* What is won and lost at the same kind of end is told apart by where it is. */
+static void test_rewards_of_endings_are_found(void **state) {
+    (void)state;
+    make(2, 3, 400);
+    end_at_once(400, 3, by_band);
+    fit_model(1, UINT32_MAX);
+    for (uint32_t j = 0; j <= 40; j++) {
+        float s[2] = {0.5f, 0.025f * (float)j};
+        if (fabsf(s[1] - 0.3f) < 0.02f || fabsf(s[1] - 0.6f) < 0.02f)
+            continue;
+        const rlvc_ending_node *leaf = rlvc_ending_at(&model.ending, s);
+        assert_true(leaf->probability == 1.0f);
+        assert_true(fabsf(leaf->reward - by_band(s, NULL)) < 0.01f);
+    }
+    assert_int_equal(fit.ending.leaves, 3); /* and no more */
+}
+
+/* Rewards that are drawn seldom make a tree larger. Few rows do, and rare rewards: two wins of five
+ * next to each other are far from the mean of a hundred. */
+static void test_endings_with_random_rewards(void **state) {
+    float (*const law[])(const float *, rlvc_rng *) = {by_coin, by_sum, by_rare_coin};
+    const uint32_t rows[] = {20, 100, 400}, most[][3] = {{10, 5, 5}, {20, 5, 5}, {15, 30, 15}};
+    (void)state;
+    for (uint32_t k = 0; k < 3; k++) {
+        for (uint32_t n = 0; n < 3; n++) {
+            uint32_t grown = 0;
+            for (uint32_t seed = 1; seed <= 100; seed++) {
+                make(2, 3, 400);
+                end_at_once(rows[n], seed, law[k]);
+                fit_model(seed, UINT32_MAX);
+                grown += fit.ending.leaves > 1;
+            }
+            if (grown > most[k][n])
+                fail_msg("law %u: %u of 100 trees of %u rows grew", k, grown, rows[n]);
+        }
+    }
+}
+
 /* Two values next to each other: the cut between them is one of them. */
 static void test_endings_apart_by_a_bit(void **state) {
     (void)state;
@@ -597,6 +669,8 @@ int main(void) {
         cmocka_unit_test(test_endings_are_found),
         cmocka_unit_test(test_no_ending_and_nothing_else),
         cmocka_unit_test(test_endings_have_sixteen_leaves_at_most),
+        cmocka_unit_test(test_rewards_of_endings_are_found),
+        cmocka_unit_test(test_endings_with_random_rewards),
         cmocka_unit_test(test_endings_apart_by_a_bit),
         cmocka_unit_test(test_endings_of_a_constant),
         cmocka_unit_test(test_few_rows),

@@ -177,6 +177,19 @@ def test_a_pole_played_at_once_falls_as_in_an_environment():
     assert controls.balance(lean, 200) == pytest.approx(one_by_one, rel=0.1)
 
 
+def test_a_ball_can_be_caught_by_two_leaves():
+    def chase(rows):
+        return np.where(rows[:, 4] > 0, 2, 1)
+
+    def stay(rows):
+        return np.zeros(len(rows), int)
+
+    assert controls.mean_return(controls.Catch, chase, 200) == 1
+    assert controls.mean_return(controls.Catch, stay, 200) < -0.5
+    task = tasks.TASKS["catch"]()
+    assert task.look(chase, 0).good and not task.look(stay, 0).good
+
+
 @pytest.mark.parametrize("noise", [{"components": 4}, {"error": 0.02}])
 def test_noise_is_what_is_said(noise):
     rows = []

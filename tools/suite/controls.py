@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tasks of control on real numbers: Gymnasium's classic ones, some with noise or with three torques."""
+"""Tasks of control on real numbers: Gymnasium's classic ones, some changed, and a ball to catch."""
 
 import gymnasium
 import numpy as np
@@ -42,6 +42,38 @@ class Torques(gymnasium.ActionWrapper):
     def action(self, action):
         """The torque of an action."""
         return self.torques[action].astype(np.float32)
+
+
+class Catch(gymnasium.Env):
+    """A ball falls in 20 steps and bounces off two walls; a paddle below it moves by 0, -0.08 or 0.08.
+
+    All rewards are 0 but the last one: 1 if the ball is caught, less than 0.15 away from the middle of
+    the paddle, else -1. An observation has the ball's place x and height y, its drift in a step, the
+    paddle's place, and how far the ball is from the paddle.
+    """
+
+    def __init__(self):
+        self.observation_space = spaces.Box(-2, 2, (5,), np.float32)
+        self.action_space = spaces.Discrete(3)
+
+    def _see(self):
+        away = self.x - self.paddle
+        return np.array([self.x, self.height, self.drift, self.paddle, away], np.float32)
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.x, self.drift = self.np_random.uniform((-1, -0.05), (1, 0.05))
+        self.height, self.paddle = 1.0, 0.0
+        return self._see(), {}
+
+    def step(self, action):
+        self.paddle = np.clip(self.paddle + (0, -0.08, 0.08)[action], -1, 1)
+        self.x, self.height = self.x + self.drift, self.height - 0.05
+        if abs(self.x) > 1:
+            self.x, self.drift = np.clip(self.x, -1, 1), -self.drift
+        landed = self.height < 0.025
+        caught = abs(self.x - self.paddle) < 0.15
+        return self._see(), (1.0 if caught else -1.0) if landed else 0.0, landed, False, {}
 
 
 def balance(act, episodes, components=0, error=0.0):

@@ -20,6 +20,7 @@ TASKS = {
     "acrobot": "Acrobot-v1",
     "pendulum": "Pendulum-v1 with 3 torques",
     "lander": "LunarLander-v3",
+    "catch": "a ball to catch: rewards of 1 and -1 at the end, else none",
     "grid": "MiniGrid-Empty-5x5-v0, all of it seen",
     "far": "a maze of 20 x 20 cells with a single, distant reward, 6 distractors",
     "nothing": "nothing to learn: random bits, random rewards; ten runs a seed",

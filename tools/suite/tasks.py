@@ -322,6 +322,10 @@ def lander():
     return _classic("lander", make, 50000, 100, 16, 0.5)
 
 
+def catch():
+    return _classic("catch", controls.Catch, 10000, 0.95, 6, 0.95)
+
+
 def grid():
     def make():
         from minigrid.wrappers import FullyObsWrapper, ImgObsWrapper
@@ -405,7 +409,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander,
+    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander, catch,
     grid, far, nothing, wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}

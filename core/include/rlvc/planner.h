@@ -50,7 +50,7 @@ extern "C" {
      5u * 2u * (RLVC_PLANNER_TERMS(components, actions) + 1u) *                                    \
          (RLVC_PLANNER_TERMS(components, actions) + 2u) +                                          \
      16u * RLVC_PLANNER_TERMS(components, actions) + 16u * (320u + 196u) +                         \
-     (size_t)(components) * (16u * 24u * 4u + 256u * 4u + 348u) +                                  \
+     (size_t)(components) * (16u * 24u * 4u + 256u * 4u + 416u) +                                  \
      36u * ((size_t)(components) * ((components)-1u) / 2u + 1u))
 
 /* Terms of a linear model of the dynamics: with products of components if they are at most 64. */

@@ -6,6 +6,7 @@
 #include "ending.h"
 
 #include "../base/assert.h"
+#include "../base/float_math.h"
 #include <string.h>
 
 enum { WEIGH, COUNT, CHOOSE, PARTITION, DONE };
@@ -19,7 +20,8 @@ static void enter(rlvc_ending_fit_cursor *fit, uint8_t phase) {
 static void open_node(rlvc_ending_fit_cursor *fit, uint32_t node) {
     fit->node = node;
     fit->gain[node] = 0.0f;
-    fit->weight[0] = fit->weight[1] = fit->reward = 0.0f;
+    memset(&fit->all, 0, sizeof fit->all);
+    fit->reward = fit->error = 0.0f;
     memset(fit->ending->node + node, 0, sizeof *fit->ending->node);
     fit->ending->node[node].component = RLVC_ENDING_LEAF;
     enter(fit, WEIGH);
@@ -50,8 +52,22 @@ static int ended(const rlvc_ending_fit_cursor *fit, uint32_t row) {
     return fit->experience->end[row] == RLVC_TERMINATED;
 }
 
-static float weight_of(const rlvc_ending_fit_cursor *fit, int end) {
-    return end ? fit->sample->weight_ended : fit->sample->weight_going;
+static void tally_row(const rlvc_ending_fit_cursor *fit, rlvc_ending_tally *rows, uint32_t row) {
+    if (ended(fit, row)) {
+        float reward = fit->experience->reward[row] - fit->ending->node[fit->node].reward;
+        rows->ended += fit->sample->weight_ended;
+        rows->reward += fit->sample->weight_ended * reward;
+    } else {
+        rows->going += fit->sample->weight_going;
+    }
+}
+
+static float weight_of(const rlvc_ending_tally *rows) {
+    return rows->going + rows->ended;
+}
+
+static int rewards_differ(const rlvc_ending_fit_cursor *fit) {
+    return fit->reward_low < fit->reward_high;
 }
 
 /* Opens the windows: from least to greatest value, which were put into low and width. */
@@ -60,7 +76,7 @@ static void open_windows(rlvc_ending_fit_cursor *fit) {
         rlvc_ending_window *window = fit->window + i;
         window->width = (window->width - window->low) / (float)RLVC_ENDING_BINS;
         window->gain = 0.0f;
-        window->below[0] = window->below[1] = 0.0f;
+        memset(&window->below, 0, sizeof window->below);
         memset(window->bin, 0, sizeof window->bin);
     }
     fit->pass = 0;
@@ -68,10 +84,9 @@ static void open_windows(rlvc_ending_fit_cursor *fit) {
 
 static void end_of_weighing(rlvc_ending_fit_cursor *fit) {
     rlvc_ending_node *node = fit->ending->node + fit->node;
-    float ending = fit->weight[1], all = fit->weight[0] + fit->weight[1];
-    node->probability = ending / all;
-    node->reward = ending > 0.0f ? fit->reward / ending : 0.0f;
-    if (ending > 0.0f && fit->weight[0] > 0.0f) {
+    node->probability = fit->all.ended / weight_of(&fit->all);
+    node->reward = fit->all.ended > 0.0f ? fit->reward / fit->all.ended : 0.0f;
+    if (fit->all.ended > 0.0f && (fit->all.going > 0.0f || rewards_differ(fit))) {
         open_windows(fit);
         enter(fit, COUNT);
     } else {
@@ -79,13 +94,22 @@ static void end_of_weighing(rlvc_ending_fit_cursor *fit) {
     }
 }
 
+static void weigh_reward(rlvc_ending_fit_cursor *fit, float reward) {
+    if (fit->node == 0 && (!(fit->all.ended > 0.0f) || reward < fit->reward_low))
+        fit->reward_low = reward;
+    if (fit->node == 0 && (!(fit->all.ended > 0.0f) || reward > fit->reward_high))
+        fit->reward_high = reward;
+    fit->all.ended += fit->sample->weight_ended;
+    fit->reward += fit->sample->weight_ended * reward;
+}
+
 static void weigh_row(rlvc_ending_fit_cursor *fit) {
     uint32_t row = row_at(fit, fit->at);
     const float *value = successor(fit, row);
-    int end = ended(fit, row);
-    fit->weight[end] += weight_of(fit, end);
-    if (end)
-        fit->reward += weight_of(fit, end) * fit->experience->reward[row];
+    if (ended(fit, row))
+        weigh_reward(fit, fit->experience->reward[row]);
+    else
+        fit->all.going += fit->sample->weight_going;
     for (uint32_t i = 0; i < fit->experience->components; i++) {
         rlvc_ending_window *window = fit->window + i;
         if (fit->at == 0 || value[i] < window->low)
@@ -99,27 +123,43 @@ static void weigh_row(rlvc_ending_fit_cursor *fit) {
 
 /* ------------------------------------------------------------------ the windows */
 
-static float gini(const float *weight) {
-    float all = weight[0] + weight[1];
-    return all > 0.0f ? 2.0f * weight[0] * weight[1] / all : 0.0f;
+static float gini(const rlvc_ending_tally *rows) {
+    float all = weight_of(rows);
+    return all > 0.0f ? 2.0f * rows->going * rows->ended / all : 0.0f;
+}
+
+/* What the mean of a part of the rows takes away from the squared error of their rewards. */
+static float explained(const rlvc_ending_tally *rows) {
+    return rows->ended > 0.0f ? rows->reward * rows->reward / rows->ended : 0.0f;
+}
+
+static float gain_of(const rlvc_ending_fit_cursor *fit, const rlvc_ending_tally *below,
+                     const rlvc_ending_tally *above) {
+    float gain = gini(&fit->all) - gini(below) - gini(above);
+    float error = explained(below) + explained(above) - fit->chance;
+    float range = fit->reward_high - fit->reward_low;
+    return rewards_differ(fit) && error > 0.0f ? gain + 2.0f * error / (range * range) : gain;
 }
 
 /* The best boundary of two bins; the window then closes upon the bins on its two sides that hold
  * anything. */
 static void close_window(rlvc_ending_fit_cursor *fit, rlvc_ending_window *window) {
-    float below[2] = {window->below[0], window->below[1]}, best = -1.0f;
+    rlvc_ending_tally below = window->below;
+    float best = -1.0f;
     uint32_t from = 0, to = 0, open = 0;
     for (uint32_t b = 0; b < RLVC_ENDING_BINS; b++) {
-        const float *bin = window->bin[b];
-        if (open && bin[0] + bin[1] > 0.0f) {
+        const rlvc_ending_tally *bin = window->bin + b;
+        if (open && weight_of(bin) > 0.0f) {
             to = b;
             open = 0;
         }
-        below[0] += bin[0];
-        below[1] += bin[1];
-        float above[2] = {fit->weight[0] - below[0], fit->weight[1] - below[1]};
-        float gain = gini(fit->weight) - gini(below) - gini(above);
-        if (bin[0] + bin[1] > 0.0f && above[0] + above[1] > 0.5f && gain > best) {
+        below.going += bin->going;
+        below.ended += bin->ended;
+        below.reward += bin->reward;
+        rlvc_ending_tally above = {fit->all.going - below.going, fit->all.ended - below.ended,
+                                   fit->all.reward - below.reward};
+        float gain = gain_of(fit, &below, &above);
+        if (weight_of(bin) > 0.0f && weight_of(&above) > 0.5f && gain > best) {
             best = gain;
             from = b;
             open = 1;
@@ -131,12 +171,21 @@ static void close_window(rlvc_ending_fit_cursor *fit, rlvc_ending_window *window
     window->cut = window->low + window->width * 0.5f * (float)(from + to + 1u);
     window->low += window->width * (float)from;
     window->width *= (float)(to + 1u - from) / (float)RLVC_ENDING_BINS;
-    window->below[0] = window->below[1] = 0.0f;
+    memset(&window->below, 0, sizeof window->below);
     memset(window->bin, 0, sizeof window->bin);
+}
+
+/* Of n squares of normal numbers the greatest is about 2 ln n. As many cuts are looked at as rows
+ * ended, of each component. */
+static float error_by_chance(const rlvc_ending_fit_cursor *fit) {
+    float rows = fit->all.ended / fit->sample->weight_ended;
+    return 2.0f * rlvc_ln(1.0f + rows * (float)fit->experience->components) * fit->error / rows;
 }
 
 static void end_of_pass(rlvc_ending_fit_cursor *fit) {
     rlvc_ending_node *node = fit->ending->node + fit->node;
+    if (fit->pass == 0)
+        fit->chance = error_by_chance(fit);
     for (uint32_t i = 0; i < fit->experience->components; i++)
         if (fit->window[i].width > 0.0f)
             close_window(fit, fit->window + i);
@@ -144,7 +193,7 @@ static void end_of_pass(rlvc_ending_fit_cursor *fit) {
     if (++fit->pass < RLVC_ENDING_PASSES)
         return;
     for (uint32_t i = 0; i < fit->experience->components; i++) {
-        if (fit->window[i].gain > fit->gain[fit->node] + 1e-6f * fit->weight[1]) {
+        if (fit->window[i].gain > fit->gain[fit->node] + 1e-6f * fit->all.ended) {
             fit->gain[fit->node] = fit->window[i].gain;
             node->cut = fit->window[i].cut;
             node->child = (uint16_t)i; /* until it is split */
@@ -156,16 +205,18 @@ static void end_of_pass(rlvc_ending_fit_cursor *fit) {
 static void count_row(rlvc_ending_fit_cursor *fit) {
     uint32_t row = row_at(fit, fit->at);
     const float *value = successor(fit, row);
-    int end = ended(fit, row);
-    float weight = weight_of(fit, end);
+    if (fit->pass == 0 && ended(fit, row)) {
+        float error = fit->experience->reward[row] - fit->ending->node[fit->node].reward;
+        fit->error += fit->sample->weight_ended * error * error;
+    }
     for (uint32_t i = 0; i < fit->experience->components; i++) {
         rlvc_ending_window *window = fit->window + i;
         float offset = value[i] - window->low;
         if (offset < 0.0f) {
-            window->below[end] += weight;
+            tally_row(fit, &window->below, row);
         } else if (offset <= window->width * (float)RLVC_ENDING_BINS && window->width > 0.0f) {
             uint32_t b = (uint32_t)(offset / window->width);
-            window->bin[b < RLVC_ENDING_BINS ? b : RLVC_ENDING_BINS - 1u][end] += weight;
+            tally_row(fit, window->bin + (b < RLVC_ENDING_BINS ? b : RLVC_ENDING_BINS - 1u), row);
         }
     }
     if (++fit->at == fit->count[fit->node])

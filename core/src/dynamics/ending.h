@@ -2,9 +2,14 @@
 /* Where episodes terminate: a tree over s' whose leaves hold the probability that an interaction
  * which leads there terminates, and the mean reward of those that did.
  *
- * It grows best split first, by Gini's index over weighted rows. A cut is found without sorting.
- * The node's values are counted in bins over a window, which is the whole range at first. The
- * window then shrinks to the bins around the best boundary, three times. */
+ * It grows best split first, over weighted rows, by what a split takes away from two errors. One is
+ * Gini's index of those that terminated and those that went on. The other is the squared error of
+ * the terminal rewards, in such units that Gini's index is the same where there are two rewards. Of
+ * it counts only what exceeds what the best of so many cuts takes away by chance.
+ *
+ * A cut is found without sorting. The node's values are counted in bins over a window, which is the
+ * whole range at first. The window then shrinks to the bins around the best boundary, three times.
+ */
 #ifndef RLVC_SRC_ENDING_H
 #define RLVC_SRC_ENDING_H
 
@@ -36,13 +41,19 @@ static inline const rlvc_ending_node *rlvc_ending_at(const rlvc_ending *ending,
     return node;
 }
 
-/* The window of a component's values, and the weights that were counted in it: index 0 of what goes
- * on, 1 of what ended. */
+/* Some of a node's rows. */
+typedef struct rlvc_ending_tally {
+    float going;  /* weight of those that go on */
+    float ended;  /* and of those that terminated */
+    float reward; /* of these the weighted sum of reward less the node's mean */
+} rlvc_ending_tally;
+
+/* The window of a component's values, and the rows that were counted in it. */
 typedef struct rlvc_ending_window {
     float low;
     float width; /* of a bin; 0: nothing to cut */
-    float below[2];
-    float bin[RLVC_ENDING_BINS][2];
+    rlvc_ending_tally below;
+    rlvc_ending_tally bin[RLVC_ENDING_BINS];
     float gain; /* of the best boundary */
     float cut;
 } rlvc_ending_window;
@@ -55,8 +66,12 @@ typedef struct rlvc_ending_fit_cursor {
     uint32_t first[RLVC_ENDING_NODES]; /* the node's rows */
     uint32_t count[RLVC_ENDING_NODES];
     float gain[RLVC_ENDING_NODES];
-    float weight[2]; /* of the node under way */
-    float reward;    /* sum of the terminal rewards */
+    rlvc_ending_tally all; /* of the node under way */
+    float reward;          /* weighted sum of its terminal rewards */
+    float error;           /* their squared error */
+    float chance;          /* of it, what the best cut takes away by chance */
+    float reward_low;      /* of all terminal rewards */
+    float reward_high;
     uint32_t at;
     uint32_t end;
     uint32_t nodes;
