@@ -3,6 +3,7 @@
 
 import pathlib
 import subprocess
+import sys
 
 import hypothesis
 import hypothesis.configuration
@@ -30,11 +31,12 @@ def without_vision():
 @pytest.fixture(scope="session")
 def caller(tmp_path_factory):
     """The C program that makes the calls it reads, linked with a core of its own."""
-    program = tmp_path_factory.mktemp("caller") / "caller"
-    sources = sorted([*(ROOT / "core/src").glob("*/*.c"), *(ROOT / "core/domains").glob("*.c")])
+    folder = tmp_path_factory.mktemp("caller")
+    program = folder / "caller"
+    subprocess.run([sys.executable, ROOT / "tools/packages/amalgamate.py", folder], check=True)
     subprocess.run(
         ["gcc", "-std=c99", "-O0", "-ffp-contract=off", f"-I{ROOT / 'core/include'}", "-o", program,
-         pathlib.Path(__file__).with_name("caller.c"), *sources],
+         pathlib.Path(__file__).with_name("caller.c"), folder / "rlvc.c"],
         check=True,
     )  # fmt: skip
     return program
