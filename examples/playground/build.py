@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Builds the playground: the core and the worlds as WebAssembly, in a page that needs no network.
 
-    build.py FOLDER
+    build.py FOLDER [MODULE]
 
 Needs clang and lld (on Debian: clang lld). Writes into the folder the files of page/, rlvc.wasm, and
-wasm.js, which holds the same as text: so the page also opens from a file, without a server."""
+wasm.js, which holds the same as text: so the page also opens from a file, without a server. MODULE is an
+rlvc.wasm that was built before, to be taken instead of compiling it again."""
 
 import base64
 import pathlib
@@ -42,7 +43,10 @@ def compile_module(module):
 def main():
     folder = pathlib.Path(sys.argv[1])
     shutil.copytree(HERE / "page", folder, dirs_exist_ok=True)
-    compile_module(folder / "rlvc.wasm")
+    if sys.argv[2:]:
+        shutil.copy(sys.argv[2], folder / "rlvc.wasm")
+    else:
+        compile_module(folder / "rlvc.wasm")
     text = base64.b64encode((folder / "rlvc.wasm").read_bytes()).decode()
     (folder / "wasm.js").write_text(f'const WASM = "{text}";\n', encoding="utf-8")
 

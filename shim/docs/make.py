@@ -3,8 +3,9 @@
 """Makes the pages that mkdocs builds the site from: make.py FOLDER
 
 copies the pages, the pictures and the notebooks, builds the playground, writes a page for each header of C, and one of
-the results."""
+the results. RLVC_PLAYGROUND_MODULE names an rlvc.wasm of the same sources, if one was built already."""
 
+import os
 import pathlib
 import re
 import shutil
@@ -55,7 +56,8 @@ def main():
     front_page(folder)
     results_page.write(folder)
     c_reference.Reference().write(folder / "c")
-    subprocess.run([sys.executable, ROOT / "examples/playground/build.py", folder / "playground"], check=True)
+    built = [name for name in [os.environ.get("RLVC_PLAYGROUND_MODULE")] if name]
+    subprocess.run([sys.executable, ROOT / "examples/playground/build.py", folder / "playground", *built], check=True)
 
 
 if __name__ == "__main__":
