@@ -10,13 +10,23 @@ from __future__ import annotations
 
 import re
 
+_BEGINNING, _END = 900, 300
+
+
+def _readable(text: str) -> str:
+    """One line, whatever it quotes; of a long one, as of ten thousand columns, beginning and end."""
+    line = re.sub(r"(?<!\s)\s*\n\s*", " ", text.strip())
+    if len(line) <= _BEGINNING + _END:
+        return line
+    return f"{line[:_BEGINNING]} ... {line[-_END:]}"
+
 
 class Error(Exception):
-    """Any error of this package. Its text is one line, also where it quotes another library's."""
+    """Any error of this package. Its text is one line that can be read, whatever it quotes."""
 
     def __str__(self) -> str:
         """Return the text."""
-        return re.sub(r"\s*\n\s*", " ", super().__str__().strip())
+        return _readable(super().__str__())
 
 
 class LibraryError(Error, ImportError):
@@ -105,6 +115,10 @@ class CountError(Error, ValueError):
 
 class LogWarning(UserWarning):
     """Something of a log is left out or lost. The text says what, and how to keep it."""
+
+    def __str__(self) -> str:
+        """Return the text, shortened like that of an error."""
+        return _readable(super().__str__())
 
 
 class MaskWarning(UserWarning):

@@ -21,6 +21,7 @@ from ..agent.config import CHOICES
 from ..agent.planned_policy import PlannedPolicy, is_policy
 from ..agent.planned_policy import read_file as read_policy
 from ..agent.snapshot import read_file
+from ..checks import named
 from ..errors import ConfigError, EnvError, Error, RunError
 from ..learning.encode import Encoder
 from ..learning.learn import learn
@@ -361,7 +362,7 @@ def log_command(arguments: argparse.Namespace) -> int:
 def convert_command(arguments: argparse.Namespace) -> int:
     """Write a log as NPZ."""
     if not arguments.to.endswith(".npz"):  # as it may be another log
-        raise ConfigError(f"{arguments.to}: is written, so that its name has to end in .npz")
+        raise ConfigError(f"{named(arguments.to)}: is written, so that its name has to end in .npz")
     files.check_place(arguments.to)
     log = logs.read(arguments.log, **{name: getattr(arguments, name) for name in _LOG_OPTIONS})
     if log.record_bytes:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import shown, whole
+from ..checks import named, shown, whole
 from ..counts.table import Columns
 from ..errors import ConfigError, LogError, StoreError
 from ..files import replace
@@ -191,7 +191,7 @@ def export(source: str | Path | Sequence[str | Path], file: str | Path) -> int:
         A file is broken.
     """
     if not str(file).endswith(".npz"):
-        raise ConfigError(f"file: {file} does not end in .npz")
+        raise ConfigError(f"file: {named(file)} does not end in .npz")
     found = opened(source)
     parts = []
     for piece in found.pieces:

@@ -36,7 +36,14 @@ from .parts import Part, parts_of
 __all__ = ["Columns", "Encoder", "Flags", "Named", "Number", "Numbers", "Word", "explain"]
 
 
-class Numbers:
+class _Space:
+    """A space of a log: an error tells it by what it was made with."""
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(map(repr, vars(self).values()))})"
+
+
+class Numbers(_Space):
     """A space of arrays of numbers, encoded like a Box; for logs, without Gymnasium.
 
     Parameters
@@ -48,7 +55,7 @@ class Numbers:
         self.shape = shape
 
 
-class Flags:
+class Flags(_Space):
     """A space of arrays of truth values, encoded like a MultiBinary; for logs, without Gymnasium.
 
     Parameters
@@ -60,7 +67,7 @@ class Flags:
         self.shape = shape
 
 
-class Number:
+class Number(_Space):
     """A space of numbers from 0 on, encoded like a Discrete; for logs, without Gymnasium.
 
     Parameters
@@ -72,7 +79,7 @@ class Number:
         self.count = count
 
 
-class Word:
+class Word(_Space):
     """A space of words, one bit for each; for logs, without Gymnasium.
 
     Parameters
@@ -84,7 +91,7 @@ class Word:
         self.words = [str(word) for word in listed("words", words, "words", SpaceError)]
 
 
-class Named:
+class Named(_Space):
     """A space of dicts of other spaces, encoded like a Dict; for logs, without Gymnasium.
 
     Parameters
@@ -97,7 +104,7 @@ class Named:
         self.spaces = dict(_members("spaces", spaces))
 
 
-class Columns:
+class Columns(_Space):
     """A space of tables: a number or a word in each column; for logs, without Gymnasium.
 
     An observation is a dict or a row of a table by the names of the columns, or a sequence.

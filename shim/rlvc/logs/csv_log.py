@@ -111,19 +111,22 @@ def _stops_short(names: list[str], rows: list[tuple[int, list[str]]]) -> bool:
 
 def _apart(names: list[str], where: str, notes: list[str]) -> list[str]:
     """Columns of the observation that have one name as x_0, x_1; those of other roles are refused."""
-    twice = [name for name in dict.fromkeys(names) if name and names.count(name) > 1]
+    places: dict[str, list[int]] = {}
+    for i, name in enumerate(names):
+        places.setdefault(name, []).append(i)
+    twice = {name: found for name, found in places.items() if name and len(found) > 1}
+    numbered = {name: [f"{name}_{k}" for k in range(len(found))] for name, found in twice.items()}
+    alike = are_numbered(numbered, names) if twice else set()
     made = list(names)
-    for name in twice:
-        places = [i for i, other in enumerate(names) if other == name]
-        numbered = [f"{name}_{k}" for k in range(len(places))]
-        if set(numbered) & set(names) or not are_numbered(name, numbered, names):
-            columns = " and ".join(str(i + 1) for i in places)
+    for name, found in twice.items():
+        if name not in alike or not places.keys().isdisjoint(numbered[name]):
+            columns = " and ".join(str(i + 1) for i in found)
             raise LogError(
                 f"{where}: columns {columns} have the same name {name}: rename them, or leave one out"
             )
-        for i, unique in zip(places, numbered, strict=True):
+        for i, unique in zip(found, numbered[name], strict=True):
             made[i] = unique
-        notes.append(f"{len(places)} columns are named {name}: taken as {', '.join(numbered)}")
+        notes.append(f"{len(found)} columns are named {name}: taken as {', '.join(numbered[name])}")
     return made
 
 

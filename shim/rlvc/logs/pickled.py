@@ -2,12 +2,18 @@
 """Pickles of numbers, texts, lists, dicts and numpy arrays, read without running what is in them.
 
 A pickle may name any function, which Python's own reader calls. Here only stand-ins are called, for
-what numpy writes; a pickle that names anything else is refused.
+what numpy writes; a pickle that names anything else is refused. Of a stand-in it gets a copy, as it may
+also set attributes.
+
+Two things of a few bytes would take all memory: a place in the reader's table of what comes again, for
+which Python's reader in C makes a table of that length and the one in Python does not; and lists of
+lists that come again, whose elements are counted.
 """
 
 from __future__ import annotations
 
 import collections
+import functools
 import io
 import math
 import pickle
@@ -21,6 +27,7 @@ import numpy.typing as npt
 from ..errors import LogError
 
 Array = npt.NDArray[Any]
+_REPEATED_MAX = 1 << 26
 _DTYPE = re.compile(r"[biufSU]\d+|O8?")
 _SAVED_BY = {
     "pandas": "pass pandas.read_pickle(path)",
@@ -66,10 +73,16 @@ class _Ndarray:
             array = np.empty(len(data), object)
             array[:] = [finished(element) for element in data]
         else:
-            array = np.frombuffer(bytes(data), kind)
+            array = np.frombuffer(_bytes(data), kind)
         if len(array) != math.prod(shape):
             raise ValueError("an array of a wrong size")
         return array.reshape(shape, order="F" if fortran else "C")
+
+
+def _bytes(data: Any) -> bytes:
+    if not isinstance(data, bytes | bytearray):
+        raise ValueError("an array without its bytes")
+    return bytes(data)
 
 
 def _reconstruct(*_: Any) -> _Ndarray:
@@ -82,7 +95,7 @@ def _from_buffer(data: Any, dtype: Any, shape: Any, order: str, *_: Any) -> _Nda
 
 def _scalar(dtype: Any, data: Any = b"") -> Any:
     kind = dtype.made()
-    return data if kind.hasobject else np.frombuffer(bytes(data), kind)[0]
+    return data if kind.hasobject else np.frombuffer(_bytes(data), kind)[0]
 
 
 def _encode(text: str, encoding: str = "latin1") -> bytes:
@@ -104,29 +117,59 @@ for _room in ("numpy.core", "numpy._core"):
     }
 
 
-class _Reader(pickle.Unpickler):
+class _Reader(pickle._Unpickler):
     def find_class(self, module: str, name: str) -> Any:
         found = _STAND_INS.get((module, name))
         if found is None:
             known = next((m for m in _SAVED_BY if module.split(".")[0] == m), "")
             hint = _SAVED_BY.get(known, "load it yourself if you trust it, and pass what it holds")
             raise LogError(f"holds {module}.{name}, which is not taken from a file: {hint}")
-        return found
+        return functools.partial(found)
 
 
-def _finished(found: Any, done: dict[int, Any]) -> Any:
-    """The structure with arrays in place of the stand-ins."""
-    if id(found) in done:
-        return done[id(found)]
-    made: Any = found
-    if isinstance(found, _Ndarray):
-        made = found.made(lambda element: _finished(element, done))
-    elif isinstance(found, dict):
-        made = {key: _finished(value, done) for key, value in found.items()}
-    elif isinstance(found, list | tuple | collections.deque):
-        made = [_finished(value, done) for value in found]
-    done[id(found)] = made
-    return made
+class _Finished:
+    """The structure with arrays in place of the stand-ins.
+
+    Parameters
+    ----------
+    most : int
+        How many elements it may have, where what comes again counts each time.
+    """
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._done: dict[int, tuple[Any, int]] = {}  # what was made of an object, and its elements
+
+    def of(self, found: Any) -> Any:
+        """What is made of an object."""
+        return self._with_count(found)[0]
+
+    def _with_count(self, found: Any) -> tuple[Any, int]:
+        if id(found) not in self._done:
+            made, count = self._made(found)
+            if count > self._most:
+                raise LogError(f"holds lists that come again, with over {self._most} elements in all")
+            self._done[id(found)] = made, count
+        return self._done[id(found)]
+
+    def _made(self, found: Any) -> tuple[Any, int]:
+        if isinstance(found, _Ndarray):
+            counts = [0]
+
+            def element(value: Any) -> Any:
+                part, count = self._with_count(value)
+                counts.append(count)
+                return part
+
+            array = found.made(element)
+            return array, max(array.size, sum(counts))
+        if isinstance(found, dict):
+            parts = {key: self._with_count(value) for key, value in found.items()}
+            return {key: part for key, (part, _) in parts.items()}, sum(n for _, n in parts.values())
+        if isinstance(found, list | tuple | collections.deque):
+            each = [self._with_count(value) for value in found]
+            return [part for part, _ in each], sum(n for _, n in each)
+        return found, 1
 
 
 def unpickled(file: IO[bytes], where: str | Path) -> Any:
@@ -149,7 +192,9 @@ def unpickled(file: IO[bytes], where: str | Path) -> Any:
         It is damaged, or holds something else.
     """
     try:
-        return _finished(_Reader(file).load(), {})
+        content = file.read()
+        found = _Reader(io.BytesIO(content)).load()
+        return _Finished(max(len(content), _REPEATED_MAX)).of(found)
     except LogError as error:
         raise LogError(f"{where}: {error}") from None
     except Exception as error:  # a damaged pickle raises whatever it likes

@@ -105,7 +105,7 @@ def _spelled(name: str) -> str:
     """A name in small letters with underscores, without its unit."""
     name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name.strip().lstrip("%#_/"))  # nextState
     name = re.sub(r"_?[\[({]t( ?\+ ?1)?[\])}]$", lambda m: "_t+1" if m[1] else "_t", name)
-    name = re.sub(r"\s*(\[[^\]\d]*\]|\([^)\d]*\))$", "", name)  # a unit
+    name = re.sub(r"(?<!\s)\s*(\[[^\[\]\d]*\]|\([^()\d]*\))$", "", name)  # a unit
     name = re.sub(r"[\s-]+", "_", name.lower())
     return re.sub(r"(?<=.)[./]data$", "", name)  # of ROS
 
@@ -143,27 +143,30 @@ def _before(name: str, names: Collection[str]) -> str | None:
     return rest if rest != name and pairs and (rest in names or _is_seen(rest)) else None
 
 
-def are_numbered(name: str, numbered: Sequence[str], listed: Sequence[str]) -> bool:
-    """Whether columns of one name that are numbered stay what one of them is: of the observation.
+def are_numbered(numbered: Mapping[str, Sequence[str]], listed: Sequence[str]) -> set[str]:
+    """Of columns of one name those that are, numbered, what one of them is: of the observation.
 
     Parameters
     ----------
-    name : str
-    numbered : sequence of str
-        The names that they would have.
+    numbered : dict
+        For each such name the names that its columns would have.
     listed : sequence of str
         The names of all columns.
 
     Returns
     -------
-    bool
+    set of str
     """
-    made = [name, *numbered]
-    plains = _plains([*made, *listed])
-    if any(plain in _ROLE for plain in plains[: len(made)]):
-        return False
-    after = [_before(plain, plains) is not None for plain in plains[: len(made)]]
-    return all(after) or not any(after)
+    every = [*numbered, *(name for made in numbered.values() for name in made), *listed]
+    plains = dict(zip(every, _plains(every), strict=True))
+    known = set(plains.values())
+    alike = set()
+    for name, made in numbered.items():
+        group = [plains[each] for each in (name, *made)]
+        after = {_before(plain, known) is not None for plain in group}
+        if len(after) == 1 and not any(plain in _ROLE for plain in group):
+            alike.add(name)
+    return alike
 
 
 def _is_seen(name: str) -> bool:
@@ -187,14 +190,16 @@ def _is_aside(name: str) -> bool:
 def _paired(plains: list[str]) -> list[str]:
     """Of ``prev_state`` and ``state`` the first is the observation, the second the one after it."""
     renamed = dict(zip(plains, plains, strict=True))
+    known = set(plains)
+    followed = {_before(name, known) for name in plains}
     for name in plains:
         match = _BEFORE.fullmatch(name)
         if match is None:
             continue
         base = match[1] or match[2]
-        if base in renamed and not any(_before(other, plains) == base for other in plains):
+        if base in renamed and base not in followed:
             renamed[base] = f"next_{base}"
-        renamed[name] = base if f"next_{base}" in (renamed.get(base), *plains) else name
+        renamed[name] = base if renamed.get(base) == f"next_{base}" or f"next_{base}" in known else name
         if f"to_{base}" in renamed:
             renamed |= {name: base, f"to_{base}": f"next_{base}"}
     return [renamed[name] for name in plains]
@@ -248,15 +253,16 @@ def roles_of(
     plains = dict(zip(there, _paired(_plains(there)), strict=True))
     actions = chosen.pop("action", [])
     one = {role: found[0] for role, found in chosen.items()}
-    free = [n for n in there if n not in (*wanted, *after, *actions, *one.values())]
+    given_one = {*wanted, *after, *actions, *one.values()}
+    free = [n for n in there if n not in given_one]
     taken, more = _by_name(free, plains, set(chosen) | ({"action"} if actions else set()), where)
     one |= {role: found[0] for role, found in taken.items() if role != "action"}
     actions = actions or taken.get("action", [])
     ignored = [n for found in more for n in found]
     used = {*actions, *one.values(), *ignored}
-    rest, next_ones = [], []
+    rest, next_ones, known = [], [], set(plains.values())
     for name in (n for n in free if n not in used):
-        if _before(plains[name], plains.values()) is not None:
+        if _before(plains[name], known) is not None:
             next_ones.append(name)
         elif _is_aside(plains[name]):
             ignored.append(name)
@@ -264,13 +270,15 @@ def roles_of(
             rest.append(name)
     named = wanted or [name for name in rest if _is_seen(plains[name])]
     seen = named or [name for name in rest if name not in clocks] or rest
-    ignored += [name for name in rest if name not in seen]
+    kept = set(seen)
+    ignored += [name for name in rest if name not in kept]
     _need(actions, one, seen, there, where)
     if after and len(after) != len(seen):
         raise LogError(f"{where}: roles: {len(after)} next observations for {', '.join(seen)}")
     before = list(seen)
     after = after or _matched(next_ones, seen, plains, ignored, bool(wanted))
-    alone = [name for name in before if name not in seen]
+    kept = set(seen)
+    alone = [name for name in before if name not in kept]
     return Roles(one, actions, seen, after, ignored, bool(named), alone)
 
 
@@ -355,17 +363,17 @@ def _matched(
 
     But columns of the observation that the caller did not name are left out if they have none.
     """
-    names = plains.values()
+    names = set(plains.values())
     of = {_before(plains[name], names): name for name in after}
     found = [of[plains[name]] for name in seen if plains[name] in of]
     if found and not wanted:  # what has no next value is no part of these tuples
-        without = [name for name in seen if plains[name] not in of]
-        ignored += without
-        seen[:] = [name for name in seen if name not in without]
+        ignored += [name for name in seen if plains[name] not in of]
+        seen[:] = [name for name in seen if plains[name] in of]
     if len(found) < len(seen):
         if len(seen) == len(after) == 1:
             return after
         ignored += after
         return []
-    ignored += [name for name in after if name not in found]
+    kept = set(found)
+    ignored += [name for name in after if name not in kept]
     return found
