@@ -228,6 +228,7 @@ static void test_constant_column(void **state) {
 
 static void test_ones(void **state) {
     (void)state;
+    uint8_t each[RLVC_POPCOUNT_WORDS];
     rlvc_rng_seed(&rng, 9u);
     for (uint32_t words = 0; words <= RLVC_POPCOUNT_WORDS; words++) {
         make(NOISE, RLVC_POPCOUNT_WORDS * 64u, 1u);
@@ -235,8 +236,16 @@ static void test_ones(void **state) {
         for (uint32_t i = 0; i < words * 64u; i++)
             expected += bit_at(column, i);
         assert_int_equal(rlvc_popcount(column, words), expected);
+        rlvc_popcount_each(column, words, each);
+        for (uint32_t i = 0; i < words * 64u; i++)
+            each[i / 64u] -= (uint8_t)bit_at(column, i);
+        for (uint32_t i = 0; i < words; i++)
+            assert_int_equal(each[i], 0);
         memset(column, 0xff, sizeof column[0] * RLVC_POPCOUNT_WORDS);
         assert_int_equal(rlvc_popcount(column, words), words * 64u);
+        rlvc_popcount_each(column, words, each);
+        for (uint32_t i = 0; i < words; i++)
+            assert_int_equal(each[i], 64);
     }
 }
 

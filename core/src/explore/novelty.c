@@ -4,6 +4,7 @@
 
 #include "novelty.h"
 
+#include "../base/solver_select.h"
 #include "../solve/model.h"
 
 #define NOVELTY_DISCOUNT 0.95f
@@ -49,12 +50,12 @@ static void close_class(rlvc_novelty_cursor *cursor, const rlvc_solver_input *in
     begin_sweep(cursor);
 }
 
-/* U(c, a), once all its transitions are added. */
+/* U(c, a), once all its n transitions are added, and the mean of what they lead to is known. */
 static void close_pair(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
-                       const rlvc_values *values, rlvc_explorer *explorer) {
+                       const rlvc_values *values, rlvc_explorer *explorer, rlvc_count n,
+                       float mean) {
     size_t pair = rlvc_values_pair(values, cursor->class_id, cursor->action);
-    rlvc_count n = cursor->sum.weight;
-    float u = n < explorer->min_tried ? 1.0f : NOVELTY_DISCOUNT * rlvc_sum_mean(&cursor->sum);
+    float u = n < explorer->min_tried ? 1.0f : NOVELTY_DISCOUNT * mean;
     if (cursor->sweeps == 0 && explorer->count)
         explorer->count[pair] = (uint8_t)(n < UINT8_MAX ? n : UINT8_MAX);
     if (u > cursor->best) {
@@ -66,9 +67,31 @@ static void close_pair(rlvc_novelty_cursor *cursor, const rlvc_solver_input *inp
         close_class(cursor, input, values->pair.nearness, explorer);
 }
 
+/* As many whole pairs as the budget allows, unless one is half done: the same arithmetic, with a
+ * copy of the cursor, for the registers. @return the units. */
+static uint32_t step_pairs(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
+                           const rlvc_values *values, rlvc_explorer *explorer, uint32_t budget) {
+    rlvc_novelty_cursor now = *cursor;
+    uint32_t used = 0;
+    while (!now.done && now.sum.weight == 0) {
+        const size_t pair = rlvc_values_pair(values, now.class_id, now.action);
+        const uint32_t at = now.transition, end = values->begin.transition[pair + 1u];
+        const uint32_t units = end - at + 1u;
+        if (budget - used < units)
+            break;
+        const rlvc_sum sum = rlvc_model_sum(input->transition, at, end, values->pair.nearness);
+        now.transition = end;
+        close_pair(&now, input, values, explorer, sum.weight,
+                   at < end ? rlvc_model_mean(&sum) : 0.0f);
+        used += units;
+    }
+    *cursor = now;
+    return used;
+}
+
 uint32_t rlvc_novelty_step(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
                            rlvc_values *values, rlvc_explorer *explorer, uint32_t budget) {
-    uint32_t used = 0;
+    uint32_t used = RLVC_AT_ONCE ? step_pairs(cursor, input, values, explorer, budget) : 0u;
     while (used < budget && !cursor->done) {
         size_t pair = rlvc_values_pair(values, cursor->class_id, cursor->action);
         uint32_t end = values->begin.transition[pair + 1u];
@@ -76,7 +99,8 @@ uint32_t rlvc_novelty_step(rlvc_novelty_cursor *cursor, const rlvc_solver_input 
             used += rlvc_model_add(&cursor->sum, input->transition, &cursor->transition, end,
                                    budget - used, values->pair.nearness);
         } else {
-            close_pair(cursor, input, values, explorer);
+            close_pair(cursor, input, values, explorer, cursor->sum.weight,
+                       rlvc_sum_mean(&cursor->sum));
             used++;
         }
     }

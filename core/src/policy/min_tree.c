@@ -210,14 +210,14 @@ static bounds inspect(min_tree *s, uint32_t begin, uint32_t end) {
  * begin. */
 static uint32_t partition(min_tree *s, uint32_t begin, uint32_t end, uint32_t feature) {
     spend(s, end - begin);
-    while (begin < end) {
-        if (exhibits(s, begin, feature)) {
-            uint32_t row = s->order[--end];
-            s->order[end] = s->order[begin];
-            s->order[begin] = row;
-        } else {
-            begin++;
-        }
+    while (begin < end) { /* without a branch by the feature, which none could foresee */
+        const uint32_t first = s->order[begin], last = s->order[end - 1u];
+        const uint32_t has = (uint32_t)exhibits(s, begin, feature);
+        const uint32_t exchanged = (first ^ last) & (0u - has);
+        s->order[begin] = first ^ exchanged;
+        s->order[end - 1u] = last ^ exchanged;
+        begin += 1u - has;
+        end -= has;
     }
     return begin;
 }

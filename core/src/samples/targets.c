@@ -42,6 +42,11 @@ static float bellman_target(const rlvc_target_input *input, uint32_t slot) {
     return replay->reward[slot] + input->returns.discount * value;
 }
 
+uint32_t rlvc_target_key_at(const rlvc_target_input *input, uint32_t slot) {
+    return input->kind == RLVC_TARGET_SUCCESSOR ? successor(input->returns.replay, slot)
+                                                : rlvc_target_key(bellman_target(input, slot));
+}
+
 uint32_t rlvc_target_step(rlvc_target_cursor *target, const rlvc_target_input *input,
                           uint32_t budget) {
     if (RLVC_BY_RETURNS(input->kind)) {
@@ -56,8 +61,6 @@ uint32_t rlvc_target_step(rlvc_target_cursor *target, const rlvc_target_input *i
     target->done = 1;
     target->defined = (replay->flags[slot] & RLVC_SLOT_STORED) != 0;
     if (target->defined)
-        target->key = input->kind == RLVC_TARGET_SUCCESSOR
-                          ? successor(replay, slot)
-                          : rlvc_target_key(bellman_target(input, slot));
+        target->key = rlvc_target_key_at(input, slot);
     return 1;
 }

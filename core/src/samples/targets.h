@@ -40,6 +40,10 @@ void rlvc_target_begin(rlvc_target_cursor *target, uint32_t position);
 uint32_t rlvc_target_step(rlvc_target_cursor *target, const rlvc_target_input *input,
                           uint32_t budget);
 
+/* The key of the interaction in a slot, where that needs no window: not for RLVC_CRITERION_RETURNS.
+ * O(1). */
+uint32_t rlvc_target_key_at(const rlvc_target_input *input, uint32_t slot);
+
 /* Keys order as targets do. -0 and +0 have the same. O(1). */
 uint32_t rlvc_target_key(float target);
 float rlvc_target_of(uint32_t key);

@@ -52,4 +52,27 @@ void rlvc_model_mark(const rlvc_model_cursor *model, uint32_t word[8]);
 uint32_t rlvc_model_add(rlvc_sum *sum, const rlvc_transition *transition, uint32_t *at,
                         uint32_t end, uint32_t budget, const float *value);
 
+/* What rlvc_model_add makes of transitions [at, end), from nothing: inline, and the first term
+ * needs no compensation. O(end - at). */
+static inline rlvc_sum rlvc_model_sum(const rlvc_transition *transition, uint32_t at, uint32_t end,
+                                      const float *value) {
+    rlvc_sum sum = {0.0f, 0.0f, 0u};
+    for (uint32_t i = at; i < end; i++) {
+        const uint32_t next = transition[i].next;
+        const float term = next == RLVC_NO_CLASS ? 0.0f : value[next];
+        if (i > at) {
+            rlvc_sum_add(&sum, term, transition[i].count);
+        } else {
+            sum.sum = term * (float)transition[i].count + 0.0f; /* not -0 */
+            sum.weight = transition[i].count;
+        }
+    }
+    return sum;
+}
+
+/* The mean of a sum that is not empty: a signed integer becomes a float sooner. O(1). */
+static inline float rlvc_model_mean(const rlvc_sum *sum) {
+    return (sum->sum + sum->rest) / (float)(int64_t)sum->weight;
+}
+
 #endif

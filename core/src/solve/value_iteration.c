@@ -175,27 +175,11 @@ static uint32_t sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input
     return 1;
 }
 
-/* A sum's mean: a signed integer becomes a float sooner. */
-static float mean_of(const rlvc_sum *sum) {
-    return (sum->sum + sum->rest) / (float)(int64_t)sum->weight;
-}
-
-/* The mean value of what follows a pair, by transitions [at, end): as rlvc_model_add makes it. The
- * first term needs no compensation. */
+/* The mean value of what follows a pair, by transitions [at, end). */
 static float mean_value(const rlvc_transition *transition, uint32_t at, uint32_t end,
                         const float *value) {
-    rlvc_sum sum = {0.0f, 0.0f, 0u};
-    for (uint32_t i = at; i < end; i++) {
-        const uint32_t next = transition[i].next;
-        const float term = next == RLVC_NO_CLASS ? 0.0f : value[next];
-        if (i > at) {
-            rlvc_sum_add(&sum, term, transition[i].count);
-        } else {
-            sum.sum = term * (float)transition[i].count + 0.0f; /* not -0 */
-            sum.weight = transition[i].count;
-        }
-    }
-    return mean_of(&sum);
+    const rlvc_sum sum = rlvc_model_sum(transition, at, end, value);
+    return rlvc_model_mean(&sum);
 }
 
 /* How many of a class's pairs the sweep backs up; the first is of solver->action. */
@@ -224,7 +208,7 @@ static inline uint32_t evaluate_class(const rlvc_solver_cursor *solver,
     rlvc_sum sum = {0.0f, 0.0f, 0u};
     add_plainly(&sum, input->transition, at, end, values->value);
     if (at < end)
-        values->q[pair] = values->pair.reward[pair] + input->discount * mean_of(&sum);
+        values->q[pair] = values->pair.reward[pair] + input->discount * rlvc_model_mean(&sum);
     else if (values->tried[pair] == 0)
         values->q[pair] = 0.0f;
     return solver->action;

@@ -139,9 +139,9 @@ static uint32_t run_of(const rlvc_successor_cursor *search, const rlvc_split_inp
 /* Features detected at once: half of what detect() takes, for the stack. */
 #define RUN_FEATURES (RLVC_DETECT_FEATURES / 2u)
 
-/* Of a feature in a run: how many samples exhibit it, how many are followed by it, and both. */
+/* Of each feature in a run: how many samples exhibit it, how many are followed by it, and both. */
 typedef struct in_run {
-    uint8_t now, next, both;
+    uint8_t now[RLVC_DETECT_FEATURES], next[RLVC_DETECT_FEATURES], both[RLVC_DETECT_FEATURES];
 } in_run;
 
 /* Looks for features [first, first + m) of the block in the next n samples: a run. */
@@ -157,31 +157,35 @@ static rlvc_status detect_run(const rlvc_successor_cursor *search, const rlvc_sp
         domain->detect(domain->ctx, &after, search->at, n, features, m, next) != 0)
         return RLVC_E_CALLBACK;
     for (uint32_t j = 0; j < m; j++) {
-        const uint64_t seen[3] = {now[j] & asked, next[j] & asked, now[j] & next[j] & asked};
-        found[j].now = (uint8_t)rlvc_popcount(seen, 1);
-        found[j].next = (uint8_t)rlvc_popcount(seen + 1, 1);
-        found[j].both = (uint8_t)rlvc_popcount(seen + 2, 1);
+        now[j] &= asked;
+        next[j] &= asked;
     }
+    rlvc_popcount_each(now, m, found->now + first);
+    rlvc_popcount_each(next, m, found->next + first);
+    for (uint32_t j = 0; j < m; j++)
+        now[j] &= next[j];
+    rlvc_popcount_each(now, m, found->both + first);
     return RLVC_OK;
 }
 
 /* Counts all features of the block in a run of n samples, or if a callback fails none. */
 static rlvc_status count_run(rlvc_successor_cursor *search, const rlvc_split_input *input,
                              uint32_t n) {
-    in_run found[RLVC_DETECT_FEATURES];
+    in_run found;
     for (uint32_t first = 0; first < search->block; first += RUN_FEATURES) {
         const uint32_t left = search->block - first;
-        rlvc_status status = detect_run(search, input, n, first,
-                                        left < RUN_FEATURES ? left : RUN_FEATURES, found + first);
+        rlvc_status status =
+            detect_run(search, input, n, first, left < RUN_FEATURES ? left : RUN_FEATURES, &found);
         if (status != RLVC_OK)
             return status;
     }
     for (uint32_t j = 0; j < search->block; j++) {
         rlvc_following *action = &tally_of(input, j)->action;
-        action->n[1][1] += found[j].both;
-        action->n[1][0] += (rlvc_count)(found[j].now - found[j].both);
-        action->n[0][1] += (rlvc_count)(found[j].next - found[j].both);
-        action->n[0][0] += (rlvc_count)((int32_t)n + found[j].both - found[j].now - found[j].next);
+        const uint32_t now = found.now[j], next = found.next[j], both = found.both[j];
+        action->n[1][1] += both;
+        action->n[1][0] += now - both;
+        action->n[0][1] += next - both;
+        action->n[0][0] += n + both - now - next;
     }
     search->at += n;
     return RLVC_OK;
