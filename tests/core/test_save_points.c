@@ -13,11 +13,13 @@
 #include "../fuzz/world.h"
 #include "agent/learn.h"
 #include "base/rng.h"
+#define MEDIUM_BYTES 131072u
 #include "block.h"
 #include "store.h"
 
-#define BLOCK_BYTES (1u << 16)
+#define BLOCK_BYTES (1u << 18)
 #define CAPACITY 40u
+#define LARGE 200u
 #define STEPS 2u
 #define EVERY (5u * RLVC_STRIDE) /* points of a phase */
 
@@ -36,19 +38,19 @@ static outcome expected, got;
 static rlvc_rng rng;
 static uint32_t cell;
 
-static void make_agent(uint32_t kind, uint32_t variant) {
+static void make_agent(uint32_t kind, uint32_t variant, uint32_t capacity, float alpha) {
     domain = world_domain(kind, variant);
     assert_int_equal(rlvc_config_default(&config, &domain, 2), RLVC_OK);
     config.method = &rlvc_method_classes;
-    config.capacity = CAPACITY;
-    config.classes = 6;
+    config.capacity = capacity;
+    config.classes = capacity == LARGE ? RLVC_CLASSES_SMALL + 1u : 6u;
     config.min_samples = 4;
     config.features_at_once = 3;
-    config.alpha = 1.0f;
+    config.alpha = alpha;
     config.successors = domain.features_max > 0; /* one's own has no bound of them */
     assert_int_equal(rlvc_agent_size(&config, &domain, &bytes), RLVC_OK);
     assert_true(bytes <= BLOCK_BYTES);
-    block_fill(block, 0, BLOCK_BYTES);
+    block_fill(block, 0, bytes);
     assert_int_equal(rlvc_agent_init(&config, &domain, block, bytes, &agent), RLVC_OK);
     rlvc_rng_seed(&rng, 11u + kind);
     cell = 0;
@@ -87,7 +89,7 @@ static void check_save_point(void) {
     const rlvc_store store = medium_store(&m, &config, &domain, 0);
     rlvc_agent *loaded;
     assert_int_equal(rlvc_save(agent, &store), RLVC_OK);
-    block_fill(loaded_block, 0, BLOCK_BYTES);
+    block_fill(loaded_block, 0, bytes);
     const rlvc_status status =
         rlvc_load(&config, &domain, loaded_block, BLOCK_BYTES, &store, &loaded);
     if (status != RLVC_OK)
@@ -95,26 +97,25 @@ static void check_save_point(void) {
                  (unsigned)agent->learner.phase, (unsigned)agent->learner.at,
                  rlvc_status_text(status));
     end_step(loaded, &got);
-    block_copy(kept, block, BLOCK_BYTES);
+    block_copy(kept, block, bytes);
     end_step(agent, &expected);
-    block_copy(block, kept, BLOCK_BYTES);
+    block_copy(block, kept, bytes);
     if (memcmp(&got.progress, &expected.progress, sizeof got.progress) != 0 ||
         memcmp(got.medium.bytes, expected.medium.bytes, MEDIUM_BYTES) != 0)
         fail_msg("domain %u, phase %u, class %u: it ends otherwise", (unsigned)domain.kind,
                  (unsigned)agent->learner.phase, (unsigned)agent->learner.at);
 }
 
-/* Some steps in the smallest slices, an interaction now and then between them. Counts the points of
- * each phase, and saves at some. */
-static void check_steps(uint32_t kind, uint32_t variant, uint32_t before, uint32_t *points) {
-    make_agent(kind, variant);
-    for (uint32_t k = 0; k < STEPS; k++) {
+/* Some steps by a budget, an interaction now and then between calls. Counts the points of each
+ * phase, and saves at some. */
+static void check_steps(uint32_t steps, uint32_t before, uint32_t budget, uint32_t *points) {
+    for (uint32_t k = 0; k < steps; k++) {
         rlvc_progress progress;
         uint32_t n = 0;
         for (uint32_t i = 0; i < before; i++)
             play_one();
         do {
-            assert_int_equal(rlvc_learn(agent, RLVC_BUDGET_MIN, &progress), RLVC_OK);
+            assert_int_equal(rlvc_learn(agent, budget, &progress), RLVC_OK);
             if (points[agent->learner.phase]++ % EVERY == 0)
                 check_save_point();
             if (n++ % 4u == 0)
@@ -129,8 +130,10 @@ static void test_every_save_point(void **state) {
     (void)state;
     for (uint32_t kind = 0; kind <= RLVC_DOMAIN_BAGS; kind++) {
         uint32_t points[RLVC_PHASE_INFLUENCE + 1] = {0};
-        for (uint32_t i = 0; i < 6; i++)
-            check_steps(kind, i % 2u, before[i / 2u], points);
+        for (uint32_t i = 0; i < 6; i++) {
+            make_agent(kind, i % 2u, CAPACITY, 1.0f);
+            check_steps(STEPS, before[i / 2u], RLVC_BUDGET_MIN, points);
+        }
         assert_true(points[RLVC_PHASE_SEARCH] > 0);
         assert_true(!config.successors || points[RLVC_PHASE_INFLUENCE] > 0);
         /* Of so few samples no bag is influenced. */
@@ -139,7 +142,19 @@ static void test_every_save_point(void **state) {
     }
 }
 
+/* What is loaded does not know which searches were in vain. */
+static void test_in_vain(void **state) {
+    (void)state;
+    uint32_t points[RLVC_PHASE_INFLUENCE + 1] = {0};
+    for (uint32_t variant = 0; variant < 2; variant++) {
+        make_agent(RLVC_DOMAIN_BITS, variant, LARGE, 1e-3f);
+        check_steps(12, LARGE / 14u, 60u * RLVC_BUDGET_MIN, points);
+    }
+    assert_true(points[RLVC_PHASE_SEARCH] > 0);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_save_point)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_save_point),
+                                       cmocka_unit_test(test_in_vain)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -233,7 +233,8 @@ RLVC_API rlvc_status rlvc_agent_size(const rlvc_config *config, const rlvc_domai
     (RLVC_ROUND_UP_8((size_t)(classes) * (actions) * 4u) * 3u +                                    \
      RLVC_ROUND_UP_8(((size_t)(classes) * (actions) + 1u) * 4u) +                                  \
      RLVC_ROUND_UP_8((size_t)(classes) * 4u) + RLVC_ROUND_UP_8((size_t)(classes) * 2u) +           \
-     RLVC_ROUND_UP_8((size_t)(classes) * (actions)) + RLVC_ROUND_UP_8(classes) * 3u)
+     RLVC_ROUND_UP_8((size_t)(classes) * (actions)) + RLVC_ROUND_UP_8(classes) * 3u +              \
+     ((classes) > 512u ? (size_t)(classes) * 8u + RLVC_ROUND_UP_8((size_t)(classes) * 4u) : 0u))
 /* and the samples, cutpoints and bit columns of the search for a split. */
 #define RLVC_SEARCH_BYTES(actions, capacity, feature_bytes, features_at_once)                      \
     (((size_t)(capacity) + 1u) * 8u + RLVC_SEARCH_WORDS(actions, capacity) * 8u +        \

@@ -70,6 +70,9 @@ rlvc_status rlvc_classes_init(const rlvc_config *config, const rlvc_domain *doma
     rlvc_values_clear(&made->values);
     rlvc_explorer_clear(&made->explorer, made->config.actions);
     made->pending[0] = 0;
+    if (rlvc_workspace_remembers(&made->space))
+        memset(made->space.in_vain.units, 0,
+               made->config.classes * sizeof *made->space.in_vain.units);
     rlvc_rng_seed(&made->rng, made->config.seed);
     *agent = made;
     return RLVC_OK;

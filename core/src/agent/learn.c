@@ -211,14 +211,20 @@ static int recognise(rlvc_agent *agent, const void *feature) {
     return 0;
 }
 
+/* Whether a split that was found is significant if its feature is known. */
+static int is_conceivable(const rlvc_agent *agent, const rlvc_split *split) {
+    float level = rlvc_learner_log_level(agent), known = rlvc_ln(agent->config.alpha_known);
+    return split->log_p < (level > known ? level : known);
+}
+
 /* Whether a split that was found is to be made; -1: not known yet. A feature that the tree tests is
  * no noise, and neither is one that the agent influences. */
 static int is_significant(rlvc_agent *agent, const rlvc_split *split, const void *feature) {
     rlvc_learner *learner = &agent->learner;
     if (learner->searching == RLVC_GROWING)
         return 1;
-    float level = rlvc_learner_log_level(agent), known = rlvc_ln(agent->config.alpha_known);
-    if (!(split->log_p < (level > known ? level : known)))
+    float level = rlvc_learner_log_level(agent);
+    if (!is_conceivable(agent, split))
         return 0;
     if (learner->phase == RLVC_PHASE_SUCCESSORS || recognise(agent, feature))
         return 1;
@@ -315,6 +321,51 @@ static rlvc_status look(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
                                             agent->values.begin.sample, budget, used);
 }
 
+/* Whether class `at` is sorted, and what its search finds rests on the order of samples and
+ * cutpoints alone. A slot holds the same sample until the first is given up; every other slot at
+ * least holds an interaction, so that the head cannot have gone round by then. */
+static int rests_on_order(const rlvc_agent *agent) {
+    const rlvc_learner *learner = &agent->learner;
+    return rlvc_workspace_remembers(&agent->space) && learner->phase == RLVC_PHASE_SEARCH &&
+           rlvc_split_search_is_sorted(&learner->work.split) &&
+           !RLVC_BY_RETURNS(agent->config.criterion) && !(agent->config.smallest_effect > 0.0f) &&
+           agent->replay.head == 0 && agent->interactions <= agent->config.capacity;
+}
+
+/* Whether class `at` was searched in vain when its samples were in the same order: it would be
+ * again, as the level only falls. It has to fit into the budget whole, so that no call ends
+ * elsewhere than if it were searched. */
+static int is_in_vain(const rlvc_agent *agent, uint32_t budget) {
+    const rlvc_learner *learner = &agent->learner;
+    const uint32_t units = agent->space.in_vain.units[learner->at];
+    return units > 0 && agent->space.in_vain.order[learner->at] == learner->work.split.order &&
+           budget > units && budget - units >= RLVC_BUDGET_MIN;
+}
+
+/* Searches class `at` from where it is sorted, and remembers if that was in vain. */
+static rlvc_status look_on(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    const rlvc_learner *learner = &agent->learner;
+    rlvc_status status = look(agent, budget, used);
+    rlvc_split split;
+    if (!learner->work.split.done)
+        return status;
+    const void *feature = rlvc_split_search_result(&learner->work.split, &agent->space, &split);
+    if (feature && is_conceivable(agent, &split))
+        return status;
+    agent->space.in_vain.order[learner->at] = learner->work.split.order;
+    agent->space.in_vain.units[learner->at] = *used + (feature ? DECIDE_UNITS : 1u);
+    return status;
+}
+
+/* Does what follows when class `at` is sorted, or charges for what that would come to. */
+static rlvc_status search_sorted(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
+    if (!is_in_vain(agent, budget))
+        return look_on(agent, budget, used);
+    *used = agent->space.in_vain.units[agent->learner.at];
+    (void)rlvc_learner_decide(agent, NULL, NULL);
+    return RLVC_OK;
+}
+
 /* Works on class `at`, or on what is influenced in all. */
 static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
@@ -330,6 +381,8 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
         agent->pending[learner->at] = 0;
         rlvc_learner_begin_search(agent);
     }
+    if (rests_on_order(agent))
+        return search_sorted(agent, budget, used);
     if (succession ? !learner->work.successors.done : !learner->work.split.done)
         return look(agent, budget, used);
     if (learner->phase == RLVC_PHASE_INFLUENCE) {

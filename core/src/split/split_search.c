@@ -52,6 +52,14 @@ void rlvc_workspace_carve(rlvc_workspace *space, rlvc_arena *arena, const rlvc_c
     space->of_action.group =
         rlvc_arena_carve(arena, config->actions, sizeof *space->of_action.group);
     space->pool = rlvc_arena_carve(arena, config->features_at_once, sizeof *space->pool);
+    if (RLVC_CLASSES_MAX > RLVC_CLASSES_SMALL)
+        space->remembers = (uint8_t)(config->classes > RLVC_CLASSES_SMALL);
+    if (rlvc_workspace_remembers(space)) {
+        space->in_vain.order =
+            rlvc_arena_carve(arena, config->classes, sizeof *space->in_vain.order);
+        space->in_vain.units =
+            rlvc_arena_carve(arena, config->classes, sizeof *space->in_vain.units);
+    }
     space->feature_bytes = feature_bytes;
     space->features_at_once = config->features_at_once;
     space->actions = config->actions;
@@ -155,6 +163,13 @@ static void end_marking(rlvc_split_cursor *search, const rlvc_split_input *input
         enter(search, RLVC_HAS_OWN_ORACLE && input->domain->oracle ? ASK : PROPOSE);
 }
 
+/* Goes on with the hash of the order, which tells groups by their slots. */
+static void take_down(rlvc_split_cursor *search, uint32_t slot, int distinct) {
+    search->order = (search->order ^ (2u * (uint64_t)slot + 1u + (uint64_t)(distinct != 0))) *
+                    0x9E3779B97F4A7C15u;
+    search->order ^= search->order >> 32;
+}
+
 /* Goes on to the next group. */
 static void close_group(rlvc_split_cursor *search, const rlvc_split_input *input) {
     rlvc_group *group = &input->space->of_action.group[search->action];
@@ -180,6 +195,8 @@ static uint32_t mark(rlvc_split_cursor *search, const rlvc_split_input *input, u
             at > 0 && rlvc_target_distinct(input->aliasing, search->lowest, sample[at].key);
         rlvc_bit_append(cuts, at, distinct);
         group->cuts += (uint32_t)distinct;
+        if (rlvc_workspace_remembers(input->space))
+            take_down(search, sample[at].slot, distinct);
         if (at == 0 || distinct)
             search->lowest = sample[at].key;
     }
@@ -470,15 +487,23 @@ static uint32_t needed(const rlvc_split_cursor *search) {
     return divided ? 1u : RLVC_BUDGET_MIN;
 }
 
+int rlvc_split_search_is_sorted(const rlvc_split_cursor *search) {
+    return search->phase == PROPOSE && search->first == 0;
+}
+
 rlvc_status rlvc_split_search_step(rlvc_split_cursor *search, const rlvc_split_input *input,
                                    uint32_t budget, uint32_t *used) {
     *used = 0;
     while (!search->done && budget - *used >= needed(search)) {
         uint32_t units = 0;
+        const int unsorted = search->phase == MARK;
         rlvc_status status = advance(search, input, budget - *used, &units);
         if (status != RLVC_OK)
             return status;
         *used += units;
+        if (rlvc_workspace_remembers(input->space) && unsorted &&
+            rlvc_split_search_is_sorted(search) && budget - *used >= RLVC_BUDGET_MIN)
+            break; /* the caller goes on at once */
     }
     return RLVC_OK;
 }

@@ -35,6 +35,7 @@
 #include "cutpoint.h"
 #include "effect.h"
 #include "evidence.h"
+#include "../base/solver_select.h"
 #include "../samples/rows.h"
 #include "../samples/sort.h"
 
@@ -69,10 +70,21 @@ typedef struct rlvc_workspace {
         rlvc_sides *sides; /* while a feature that was found is weighed */
     } of_action;           /* [actions] */
     rlvc_pooled *pool;     /* [features_at_once] */
+    struct {               /* where there may be more than RLVC_CLASSES_SMALL classes: */
+        uint64_t *order;   /* [classes] of samples and cutpoints when a search was in vain, */
+        uint32_t *units;   /* [classes] and what it is charged from there on; 0: none was */
+    } in_vain;
     uint32_t feature_bytes;
     uint32_t features_at_once;
     uint32_t actions;
+    uint8_t remembers; /* what is in_vain */
 } rlvc_workspace;
+
+/* Whether searches in vain are remembered: where many classes may stay as they are while others
+ * change. O(1). */
+static inline int rlvc_workspace_remembers(const rlvc_workspace *space) {
+    return RLVC_CLASSES_MAX > RLVC_CLASSES_SMALL && space->remembers;
+}
 
 /* Column j of the block, when all groups together have `words` words. An odd number of words apart,
  * so that the words of one place in all columns do not fall on the same lines of a cache. O(1). */
@@ -107,6 +119,7 @@ typedef struct rlvc_split_cursor {
         rlvc_effect effect;
     } inner;
     rlvc_evidence evidence;
+    uint64_t order;  /* if the workspace remembers: a hash of samples and cutpoints so far */
     uint32_t action; /* the group at work */
     uint32_t words;  /* of all groups */
     uint32_t at;     /* sample of the group */
@@ -160,6 +173,11 @@ void rlvc_split_search_sort(rlvc_split_cursor *search, const rlvc_split_input *i
  * @return RLVC_OK; RLVC_E_CALLBACK: try that callback again by calling again. */
 rlvc_status rlvc_split_search_step(rlvc_split_cursor *search, const rlvc_split_input *input,
                                    uint32_t budget, uint32_t *used);
+
+/* Whether all samples are in order, and no feature was looked for yet: search->order is that of
+ * all, if the workspace remembers, and then a call of rlvc_split_search_step ends there, unless
+ * less than RLVC_BUDGET_MIN is left. O(1). */
+int rlvc_split_search_is_sorted(const rlvc_split_cursor *search);
 
 /* Takes the smallest step that a cursor can stop after. Not to be called when done.
  * @return RLVC_OK; RLVC_E_CALLBACK. */
