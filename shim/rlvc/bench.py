@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes
 import time
 from collections.abc import Callable
@@ -138,14 +139,15 @@ class _Recorder:
 
     def reset(self, **arguments: Any) -> Any:
         """Reset the environment."""
-        self.current, info = self._env.reset(**arguments)
-        return self.current, info
+        returned = self._env.reset(**arguments)
+        self.current = copy.deepcopy(returned[0])  # it may be written over
+        return returned
 
     def step(self, action: Any) -> Any:
         """Act, and keep the interaction."""
         returned = self._env.step(action)
-        self.seen.append((self.current, action, *returned[1::-1], *returned[2:4]))
-        self.current = returned[0]
+        before, self.current = self.current, copy.deepcopy(returned[0])
+        self.seen.append((before, action, returned[1], self.current, *returned[2:4]))
         return returned
 
 

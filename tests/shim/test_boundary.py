@@ -101,6 +101,8 @@ def test_an_environment_may_write_over_its_observation(space, hold):
     texts = [run.text() for run in runs]
     assert texts[0] == texts[1]
     assert repr(runs[0].history) == repr(runs[1].history)
+    past = [rlvc.learn(rlvc.History(Walk(space, shared), 3), 400, seed=1).text() for shared in (False, True)]
+    assert past[0] == past[1]
     for env in (Walk(space, False), Walk(space, True)):
         assert runs[0].evaluate(env, 20).returns.tolist() == runs[1].evaluate(env, 20).returns.tolist()
 

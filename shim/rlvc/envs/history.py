@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections import OrderedDict, deque
 from typing import Any
 
@@ -69,15 +70,15 @@ class History(gymnasium.Wrapper[Any, Any, Any, Any]):
     def reset(self, **arguments: Any) -> tuple[Any, dict[str, Any]]:
         """Begin an episode: the past is empty."""
         observation, info = self.env.reset(**arguments)
-        self._seen.extend([observation] * self._n)
+        self._seen.extend([copy.deepcopy(observation)] * self._n)  # it may be written over
         self._done.extend([self._none] * self._n)
         return self._observed(), info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Act, and remember what was done and seen."""
         observation, reward, terminated, truncated, info = self.env.step(action)
-        self._seen.append(observation)
+        self._seen.append(copy.deepcopy(observation))
         if isinstance(self.env.action_space, spaces.Discrete):
             action = np.int64(int(action) - int(self.env.action_space.start) + 1)
-        self._done.append(action)
+        self._done.append(copy.deepcopy(action))
         return self._observed(), reward, terminated, truncated, info
