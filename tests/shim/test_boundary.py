@@ -277,6 +277,16 @@ def test_vectors(name):
     assert caught.value.run.agent.statistics.interactions > 20
 
 
+def test_a_vector_whose_steps_all_end():
+    """Also the step that only resets says that it ends the episode: it counts for nothing."""
+    envs = gymnasium.vector.SyncVectorEnv([Ring for _ in range(3)])
+    step = envs.step
+    envs.step = lambda actions: (*step(actions)[:2], np.ones(3, np.bool_), np.zeros(3, np.bool_), {})
+    run = rlvc.learn(envs, 90, seed=1)
+    assert run.agent.statistics.interactions == 90
+    assert run.evaluate(envs, 6).lengths.tolist() == [1] * 6
+
+
 @pytest.mark.parametrize("fault", ["final_obs", "batch", "fewer"])
 def test_vectors_whose_observations_are_missing(fault):
     mode = gymnasium.vector.AutoresetMode.SAME_STEP

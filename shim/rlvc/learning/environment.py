@@ -176,6 +176,6 @@ class Environment:
             reached = copy.deepcopy(self.split(following))  # the environments may write over it
             following, info = boundary.reset(self.env, options={"reset_mask": over})
         elif not self.same_step:
-            self.dead = over
+            self.dead = over & ~self.dead  # a step that only resets ends nothing
         self._see(following, info)
         return reached, rewards, terminated, truncated
