@@ -409,7 +409,7 @@ def changing():
 
 
 _MAKERS = (
-    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander, catch,
-    grid, far, nothing, wander, changing,
+    binary, lake, slippery, large, taxi, cab, cartpole, noise, sensors, car, acrobot, pendulum, lander,
+    catch, grid, far, nothing, wander, changing,
 )  # fmt: skip
 TASKS = {make.__name__: functools.cache(make) for make in _MAKERS}
