@@ -81,7 +81,7 @@ rlvc_status rlvc_bags_default(rlvc_bags *bags, uint32_t points, uint32_t dimensi
                               float radius) {
     if (bags == NULL)
         return RLVC_E_NULL;
-    bags->size = 16u;
+    bags->size = 32u;
     const rlvc_status status =
         rlvc_descriptors_default(&bags->vectors, points, dimensions, form, radius);
     bags->vectors.candidates = 16u;

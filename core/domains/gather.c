@@ -6,10 +6,12 @@
  *
  * How much of a bag is needed is then chosen by the targets, too: of the run many should have it,
  * of the others few. Where nothing lies between them, it is put near the others, since of a thing
- * seen in other ways something is missing.
+ * seen in other ways something is missing. A percept whose vectors are in the bag has these for
+ * certain, which a new one has not: they do not count in its score.
  *
  * What is chosen so by targets fits them, even if they are noise. So only every second sample is
- * looked at, and the others must bear the candidate out, or it is refused. */
+ * looked at, and the others must bear the candidate out, or it is refused. What they bear out is
+ * gathered once more, from all samples. */
 #include "rlvc/float_rules.h"
 
 #include "gather.h"
@@ -23,17 +25,19 @@
 
 #define ROUNDS 2u
 #define POOL 128u /* vectors among which those of a bag are chosen */
-#define NEAR 8u   /* percepts that they come from */
+#define NEAR 32u  /* percepts that they come from */
 #define RUN 64u   /* percepts of the run that are measured, at most; */
 #define RARE 64u  /* of the others, where vectors are chosen; */
 #define REST 448u /* where it is seen how much is needed */
 #define BINS 64u
 #define BIN_MIN 9u       /* less of a bag is never enough, */
 #define BINS_OF_ALL 128u /* in parts of what a percept with all of its vectors scores */
-#define NEARER 4u        /* into the first fourth of a gap */
+#define NEARER 8u        /* into the first eighth of a gap */
 #define APART 0.25f      /* of tau^2: nearer vectors are the same */
+#define SELDOM 2.0f      /* how much more it counts that others have a vector */
+#define LEFT_OVER 8u     /* so many of a run for each of the others are no thing */
 #define REFUSED (-1.0f)
-#define LEVEL 0.05f /* of a class of noise that it has a candidate that is borne out */
+#define LEVEL 0.01f /* of a class of noise that it has a candidate that is borne out */
 
 /* So many of the others count as one of the run; but a share of them at least twice that of the
  * run: where actions' targets ascend, up to half of them are of the same thing. */
@@ -47,7 +51,7 @@ typedef struct parts {
     const rlvc_layout *layout;
     const rlvc_samples *samples;
     uint32_t run[2], all[2];
-    uint32_t half; /* 0: the samples to gather from, of even number; 1: those to bear it out */
+    uint32_t first, step; /* looked at are the samples first, first + step, ... */
 } parts;
 
 typedef struct pool {
@@ -63,15 +67,34 @@ static float whole_score(const parts *class_, const rlvc_bag *bag, const void *p
     return rlvc_bag_score(class_->layout, bag, percept, unlimited);
 }
 
+/* Is a vector one of the percept's own? Both are among the samples' percepts. */
+static int is_own(const parts *class_, const void *vector, const void *percept) {
+    return (size_t)((const unsigned char *)vector - (const unsigned char *)percept) <
+           class_->samples->percept_bytes;
+}
+
+/* What a percept scores by the vectors that are not its own, as if all were like these; where all
+ * are its own, by these. */
+static float foreign_score(const parts *class_, const rlvc_bag *bag, const void *percept) {
+    rlvc_bag foreign;
+    foreign.count = 0;
+    for (uint32_t i = 0; i < bag->count; i++)
+        if (!is_own(class_, bag->vector[i], percept))
+            foreign.vector[foreign.count++] = bag->vector[i];
+    if (foreign.count == 0)
+        return whole_score(class_, bag, percept);
+    return whole_score(class_, &foreign, percept) * (float)bag->count / (float)foreign.count;
+}
+
 /* ------------------------------------------------------------------ which percepts */
 
 static uint32_t least(uint32_t a, uint32_t b) {
     return a < b ? a : b;
 }
 
-/* How many samples before number `at` are of the half. */
+/* How many samples before number `at` are looked at. */
 static uint32_t before(const parts *class_, uint32_t at) {
-    return (at + 1u - class_->half) / 2u;
+    return (at + class_->step - 1u - class_->first) / class_->step;
 }
 
 static uint32_t run_length(const parts *class_) {
@@ -82,26 +105,27 @@ static uint32_t others(const parts *class_) {
     return before(class_, class_->all[1]) - before(class_, class_->all[0]) - run_length(class_);
 }
 
-/* Percept number i of the half, of all samples. */
-static const void *of_half(const parts *class_, uint32_t i) {
-    return rlvc_samples_percept(class_->samples, 2u * i + class_->half);
+/* Percept number i of those looked at. */
+static const void *looked_at(const parts *class_, uint32_t i) {
+    return rlvc_samples_percept(class_->samples, class_->step * i + class_->first);
 }
 
 /* Percept number i of n of the run, evenly chosen. */
 static const void *of_run(const parts *class_, uint32_t i, uint32_t n) {
-    return of_half(class_, before(class_, class_->run[0]) +
-                               (uint32_t)((uint64_t)i * run_length(class_) / n));
+    return looked_at(class_, before(class_, class_->run[0]) +
+                                 (uint32_t)((uint64_t)i * run_length(class_) / n));
 }
 
 /* Likewise of the others. */
 static const void *of_others(const parts *class_, uint32_t i, uint32_t n) {
     const uint32_t at =
         before(class_, class_->all[0]) + (uint32_t)((uint64_t)i * others(class_) / n);
-    return of_half(class_, at < before(class_, class_->run[0]) ? at : at + run_length(class_));
+    return looked_at(class_, at < before(class_, class_->run[0]) ? at : at + run_length(class_));
 }
 
-/* Finds run number `run` of those to gather from that are not all of their action, and what lies
- * beside it. If there are fewer, returns how many there are; else a number above `run`. */
+/* Finds run number `run` of those to gather from, and what lies beside it. A run of nearly all
+ * samples of its action is what is left over of many things, and shows none of them. If there are
+ * fewer, returns how many there are; else a number above `run`. */
 static uint32_t find_parts(uint32_t run, parts *class_) {
     const rlvc_samples *samples = class_->samples;
     uint32_t found = 0, end = 0;
@@ -117,7 +141,7 @@ static uint32_t find_parts(uint32_t run, parts *class_) {
         }
         class_->run[0] = begin;
         class_->run[1] = end;
-        found += run_length(class_) > 0 && others(class_) > 0;
+        found += run_length(class_) > 0 && run_length(class_) / LEFT_OVER < others(class_);
     }
     return found;
 }
@@ -149,7 +173,8 @@ static uint32_t find_near(const parts *class_, const rlvc_bag *bag, const void *
     return n;
 }
 
-/* How common a vector is in these percepts, more than in the others. */
+/* How common a vector is in these percepts, more than in the others: what others have as well costs
+ * more than it helps. */
 static float worth_of(const parts *class_, const void *vector, const void *const near[NEAR],
                       uint32_t n) {
     const uint32_t measured = least(others(class_), RARE);
@@ -158,7 +183,7 @@ static float worth_of(const parts *class_, const void *vector, const void *const
         common += rlvc_bag_likeness(class_->layout, vector, near[i]);
     for (uint32_t i = 0; i < measured; i++)
         rare += rlvc_bag_likeness(class_->layout, vector, of_others(class_, i, measured));
-    return common / (float)n - rare / (float)measured;
+    return common / (float)n - SELDOM * rare / (float)measured;
 }
 
 /* Draws vectors of these percepts. */
@@ -231,7 +256,7 @@ static void count_scores(const parts *class_, const rlvc_bag *bag, float bin, ui
                          uint32_t rest, tally *made) {
     memset(made, 0, sizeof *made);
     for (uint32_t i = 0; i < measured; i++)
-        made->of_run[bin_of(whole_score(class_, bag, of_run(class_, i, measured)), bin)]++;
+        made->of_run[bin_of(foreign_score(class_, bag, of_run(class_, i, measured)), bin)]++;
     for (uint32_t i = 0; i < rest; i++)
         made->of_others[bin_of(whole_score(class_, bag, of_others(class_, i, rest)), bin)]++;
     for (uint32_t b = BINS - 1u; b > 0; b--) {
@@ -248,6 +273,8 @@ static int32_t weight_of_others(const parts *class_) {
 /* What parts the run from the others best: the row of bins that part them alike, of several the one
  * that needs least. */
 static float find_needed(const parts *class_, const rlvc_bag *bag) {
+    if (bag->count == 0)
+        return REFUSED;
     const uint32_t measured = least(run_length(class_), RUN), rest = least(others(class_), REST);
     const float all = (float)bag->count * class_->layout->d->radius * class_->layout->d->radius;
     const float bin = all / (float)BINS_OF_ALL;
@@ -288,7 +315,7 @@ static float chance_of(const uint32_t found[2], const uint32_t measured[2]) {
  * The p-value is corrected by the number of candidates, and halved as it looks to one side. */
 static int is_borne_out(const parts *class_, const rlvc_bag *bag, float needed) {
     parts rest = *class_;
-    rest.half = 1u;
+    rest.first = 1u;
     const uint32_t measured[2] = {least(run_length(&rest), RUN), least(others(&rest), REST)};
     uint32_t found[2] = {0, 0};
     for (uint32_t i = 0; i < measured[0]; i++)
@@ -320,26 +347,34 @@ static void write_feature(const rlvc_layout *layout, const rlvc_bag *bag, float 
         memcpy(out + 8u + (size_t)i * bytes, bag->vector[i], bytes);
 }
 
+/* Gathers once more, from all samples. Returns how much is needed. */
+static float gather_whole(const parts *class_, uint32_t size, uint32_t chance, rlvc_bag *bag) {
+    parts whole = *class_;
+    whole.step = 1u;
+    improve(&whole, size, chance, bag);
+    return find_needed(&whole, bag);
+}
+
 static void gather(const parts *class_, uint32_t size, uint32_t number, unsigned char *out) {
     const uint32_t chance = rlvc_scatter(number + 1u);
     const uint32_t length = run_length(class_);
     const void *seed = of_run(class_, chance % length, length);
-    float needed = REFUSED;
     rlvc_bag bag;
     begin_bag(class_->layout, seed, rlvc_scatter(chance), &bag);
     for (uint32_t round = 0; round < ROUNDS; round++)
         improve(class_, size, chance + round * POOL, &bag);
-    if (bag.count > 0)
-        needed = find_needed(class_, &bag);
-    if (needed >= 0.0f && !is_borne_out(class_, &bag, needed))
-        needed = REFUSED;
+    float needed = find_needed(class_, &bag);
+    if (needed >= 0.0f)
+        needed = is_borne_out(class_, &bag, needed)
+                     ? gather_whole(class_, size, chance + ROUNDS * POOL, &bag)
+                     : REFUSED;
     write_feature(class_->layout, &bag, needed, out);
 }
 
 int rlvc_gather_candidates(const rlvc_layout *layout, uint32_t size, const rlvc_samples *samples,
                            uint32_t first, uint32_t room, void *features, uint32_t *written) {
     const uint32_t all = layout->d->candidates;
-    parts class_ = {layout, samples, {0, 0}, {0, 0}, 0};
+    parts class_ = {layout, samples, {0, 0}, {0, 0}, 0, 2u};
     const uint32_t runs = find_parts(samples->count, &class_);
     uint32_t n = 0;
     for (uint32_t i = 0; i < samples->count; i++)

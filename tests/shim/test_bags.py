@@ -109,7 +109,7 @@ def test_extractors_have_a_domain_of_bags():
     pictures = np.random.default_rng(1).integers(256, size=(4, 48, 48, 3), dtype=np.uint8)
     metric = rlvc.vision.Metric.fit(pictures, form="int8")
     extractor = rlvc.vision.Extractor(metric=metric, form="int8")
-    assert extractor.domain(bags=True).parameters[5] == 16
+    assert extractor.domain(bags=True).parameters[5] == 32
     domain = extractor.domain(bags=8, candidates=5)
     assert domain.parameters[4:] == (5, 8)
     assert domain.pack(extractor.look(pictures[0]).vectors) == extractor.extract(pictures[0])

@@ -155,7 +155,7 @@ def test_bags(tmp_path):
     for test in tests:
         bag = test["bag"]
         assert test["name"].startswith("bag ") and test["radius"] is test["x"] is None
-        assert 0 < bag["needed"] <= len(bag["points"]) <= bag["count"] <= 16
+        assert 0 < bag["needed"] <= len(bag["points"]) <= bag["count"] <= 32
         points = made["objects"][test["object"]]["points"]
         assert all([p["x"], p["y"]] in [point[:2] for point in points] for p in bag["points"])
     assert "needed" in dot.read_text()

@@ -22,7 +22,7 @@ typedef struct rlvc_bags {
     rlvc_descriptors vectors; /* radius: tau, beyond which a vector does not count. candidates: the
                                  most bags looked at for one class, default 16. draws and margin
                                  are in range, and of no meaning */
-    uint32_t size; /* K: the most vectors of a bag, [1, RLVC_BAGS_SIZE_MAX]. Default 16 */
+    uint32_t size; /* K: the most vectors of a bag, [1, RLVC_BAGS_SIZE_MAX]. Default 32 */
 } rlvc_bags;
 
 /* Bytes of a feature: float needed; uint32_t count, in [0, K]; K vectors, of which the first
@@ -43,16 +43,17 @@ RLVC_API rlvc_status rlvc_bags_default(rlvc_bags *bags, uint32_t points, uint32_
  * rlvc_descriptors_domain.
  *
  * Detecting costs O(K P D) for each percept and feature, at most. A candidate begins as the vectors
- * of one percept, drawn from all targets alike that are not their action's only one. Twice it
+ * of one percept, drawn from all targets alike that are not nearly all of their action's. Twice it
  * becomes the vectors that the percepts which have most of it have in common, and percepts with
- * other targets have not; then `needed` is put where it parts those targets best. So a candidate
- * costs O((2 K + 64) 512 P D), at most.
+ * other targets have not; then `needed` is put where it parts those targets best. A percept's own
+ * vectors do not count in that.
  *
  * Of noise, too, something is always found that fits the targets. So candidates are gathered from
  * every second sample of the class only, and the others must bear them out: by Fisher's exact test
- * (of many samples chi-square), corrected by the number of candidates, one class of noise in twenty
- * has any. The agent tests these as all features, by all samples. Targets that are hardly ever
- * equal have no candidates: a run of one sample has no second.
+ * (of many samples chi-square), corrected by the number of candidates, one class of noise in a
+ * hundred has any. What was borne out is gathered once more, from all samples. The agent tests
+ * these as all features, by all samples. Targets that are hardly ever equal have no candidates: a
+ * run of one sample has no second. A candidate costs O((4 K + 72) 512 P D), at most.
  *
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_RANGE (a field), *domain unchanged. O(1). */
 RLVC_API rlvc_status rlvc_bags_domain(rlvc_bags *bags, rlvc_domain *domain);

@@ -176,7 +176,7 @@ class Extractor(Owned):
             returns is a percept of the domain.
         bags : bool or int
             Whether features are bags of vectors (:class:`rlvc.Bags`), and of how many at most
-            (True: 16). Not together with pairs.
+            (True: 32). Not together with pairs.
         **parameters
             ``candidates``, ``draws`` and ``margin`` of :class:`rlvc.Descriptors`; of bags
             ``candidates``.

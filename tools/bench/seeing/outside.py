@@ -14,7 +14,7 @@ noise 3 and light +-5 %, eight pictures a pose, 4,500 interactions at random. Th
 optimal is of pictures that were not learnt from: at the poses seen, at +-10 (held out), before six other
 photographs (clutter), with 10 or 20 % of the picture covered by one colour, at 0.8 to 1.25 times the
 size, and of narrow at +-30. One action everywhere is optimal in 64 % of the cells. Rules: vectors (a feature is
-one vector, 30 points, sigma 6) and bags (of 16 vectors, 120 points, sigma 2.5; large: of 32). Decisions are those of
+one vector, 30 points, sigma 6) and bags (of 32 vectors, 120 points, sigma 2.5; small: of 16). Decisions are those of
 Agent.predict, and of bags also of Agent.weigh. Needs scikit-image and
 scikit-learn."""
 
@@ -39,7 +39,7 @@ SETS = ("black", "clutter", "narrow")
 RULES = {  # rule: (config of the extractor, parameters of the domain)
     "vectors": ({"sigma": 6.0, "points": 30}, {}),
     "bags": ({"sigma": 2.5, "points": 120}, {"bags": True}),
-    "large": ({"sigma": 2.5, "points": 120}, {"bags": 32}),
+    "small": ({"sigma": 2.5, "points": 120}, {"bags": 16}),
 }
 
 
