@@ -215,7 +215,7 @@ def test_a_damaged_eye_is_refused(folder):
     for wrong in (
         3, [], {}, eye | {"metric": "{}"}, eye | {"metric": 3}, eye | {"metric": None}, eye | {"order": "x"},
         eye | {"cache": -1}, eye | {"config": {"points": 5}}, eye | {"config": {"x": 1}},
-        eye | {"parameters": {"radius": -1.0}}, eye | {"parameters": 3},
+        eye | {"parameters": {"radius": -1.0}}, eye | {"parameters": 3}, eye | {"second": 3}, eye | {"second": {}},
     ):  # fmt: skip
         with pytest.raises(errors.SnapshotError, match="damaged: "):
             store.unpacked(pack("run", head | {"eye": wrong}, body))

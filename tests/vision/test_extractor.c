@@ -132,7 +132,7 @@ static void check_percept(const rlvc_vision_config *config, const rlvc_picture *
 static void test_record(void **state) {
     (void)state;
     test_picture made = test_picture_make(128, 96, RLVC_PICTURE_BGR, 1);
-    for (uint32_t descriptor = 0; descriptor < RLVC_DESCRIPTORS; descriptor++) {
+    for (uint32_t descriptor = 0; descriptor < RLVC_DESCRIPTOR_QUARTERS; descriptor++) {
         rlvc_vision_config config = config_of(descriptor);
         for (config.points = 5; config.points <= 200; config.points += 195) {
             look_once(&config, NULL, &made.picture, &a);
@@ -147,7 +147,7 @@ static void test_record(void **state) {
 static void test_places(void **state) {
     (void)state;
     test_picture made = test_picture_make(90, 90, RLVC_PICTURE_BGR, 1);
-    for (uint32_t d = 0; d < RLVC_DESCRIPTORS; d++) {
+    for (uint32_t d = 0; d < RLVC_DESCRIPTOR_QUARTERS; d++) {
         rlvc_vision_config config = config_of(d);
         config.points = 9; /* so that directions end in zeros */
         const uint32_t plain = rlvc_vision_percept_bytes(&config);
@@ -195,6 +195,54 @@ static void test_a_plain_sky(void **state) {
         config.noise = 0.0f;
         look_once(&config, NULL, &sky[i], &a);
         assert_int_equal(a.count, config.points);
+    }
+}
+
+/* The quarters' means, added up pixel by pixel: a pixel belongs to the second half of a side if
+ * twice its number is not below the side, or to both if it is the only one. */
+static void quarter_means(const test_picture *made, double mean[12]) {
+    const uint32_t width = made->picture.width, height = made->picture.height;
+    const uint32_t channels = made->picture.format == RLVC_PICTURE_GREY ? 1u : 3u;
+    for (uint32_t k = 0; k < 12u; k++) {
+        const uint32_t q = k / 3u, red_first = k % 3u;
+        const uint32_t channel = channels == 1u                             ? 0u
+                                 : made->picture.format == RLVC_PICTURE_BGR ? 2u - red_first
+                                                                            : red_first;
+        double sum = 0;
+        uint32_t count = 0;
+        for (uint32_t y = 0; y < height; y++)
+            for (uint32_t x = 0; x < width; x++)
+                if ((height == 1u || (2u * y + 1u >= height) == (q >= 2u)) &&
+                    (width == 1u || (2u * x + 1u >= width) == (q % 2u == 1u))) {
+                    sum += made->pixels[(y * width + x) * channels + channel];
+                    count++;
+                }
+        mean[k] = sum / count;
+    }
+}
+
+static void test_quarters(void **state) {
+    (void)state;
+    static const uint32_t sides[][2] = {{80, 60}, {41, 37}, {1, 1}, {1, 9}, {6, 1}, {2, 3}};
+    rlvc_vision_config config = config_of(RLVC_DESCRIPTOR_QUARTERS);
+    assert_int_equal(config.points, 1);
+    for (uint32_t i = 0; i < 18u; i++) {
+        test_picture made = test_picture_make(sides[i / 3u][0], sides[i / 3u][1], i % 3u, i);
+        double mean[12];
+        quarter_means(&made, mean);
+        config.form = RLVC_FORM_FLOAT;
+        look_once(&config, NULL, &made.picture, &a);
+        config.form = RLVC_FORM_INT8;
+        look_once(&config, NULL, &made.picture, &b);
+        assert_true(a.count == 1u && b.count == 1u);
+        assert_true(a.points[0].x == (float)(made.picture.width / 2u) &&
+                    a.points[0].y == (float)(made.picture.height / 2u) &&
+                    a.points[0].response == 1.0f);
+        for (uint32_t k = 0; k < 12u; k++) {
+            assert_true(fabs((double)a.vector.real[k] - mean[k]) < 1e-4);
+            assert_true(fabs(b.vector.whole[k] + 128.0 - mean[k]) <= 0.5001);
+        }
+        test_picture_free(&made);
     }
 }
 
@@ -328,7 +376,7 @@ static void test_sizes_follow_each_other(void **state) {
 static void test_nothing_to_see(void **state) {
     (void)state;
     static const uint8_t black[3 * 40 * 40];
-    for (uint32_t d = 0; d < RLVC_DESCRIPTORS; d++)
+    for (uint32_t d = 0; d < RLVC_DESCRIPTOR_QUARTERS; d++)
         for (uint32_t side = 1; side <= 40; side += 13)
             for (uint32_t format = 0; format <= RLVC_PICTURE_RGB; format++) {
                 rlvc_picture picture = {black, 120, side, side, format};
@@ -490,6 +538,7 @@ int main(void) {
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_a_plain_sky),
         cmocka_unit_test(test_length_is_one),
+        cmocka_unit_test(test_quarters),
         cmocka_unit_test(test_int8_loses_nothing_of_sift_and_orb),
         cmocka_unit_test(test_formats_agree),
         cmocka_unit_test(test_red_and_blue_change_places),

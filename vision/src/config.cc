@@ -24,6 +24,7 @@ constexpr Descriptor known[RLVC_DESCRIPTORS] = {
     {"sift-upright", RLVC_DIMENSIONS_SIFT, 6},
     {"sift", RLVC_DIMENSIONS_SIFT, 6},
     {"orb", RLVC_DIMENSIONS_ORB, 5},
+    {"quarters", RLVC_DIMENSIONS_QUARTERS, 2.5f},
 };
 
 template <class Value, class Low, class High>
@@ -119,7 +120,7 @@ rlvc_vision_status rlvc_vision_config_default(uint32_t descriptor, rlvc_vision_c
         return RLVC_VISION_E_RANGE;
     *config = rlvc_vision_config{};
     config->descriptor = descriptor;
-    config->points = 30;
+    config->points = descriptor == RLVC_DESCRIPTOR_QUARTERS ? 1 : 30;
     config->radius = 3;
     config->form = RLVC_FORM_FLOAT;
     config->normalise = 0;

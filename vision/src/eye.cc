@@ -2,6 +2,7 @@
 #include "eye.h"
 
 #include "config.h"
+#include "quarters.h"
 
 #include <cmath>
 
@@ -51,14 +52,29 @@ Eye::Eye(const rlvc_vision_config &config)
 }
 
 void Eye::look(const Picture &picture) {
+    if (config_.descriptor == RLVC_DESCRIPTOR_QUARTERS) {
+        look_at_whole(picture);
+        return;
+    }
     const Light light = light_of(picture, config_.normalise != 0);
     points_ = harris_.find(picture, light.gain);
     describe(picture, light);
 }
 
 void Eye::look_at(const Picture &picture, const std::vector<rlvc_point> &points) {
+    if (config_.descriptor == RLVC_DESCRIPTOR_QUARTERS) {
+        look_at_whole(picture);
+        return;
+    }
     points_ = points;
     describe(picture, light_of(picture, config_.normalise != 0));
+}
+
+void Eye::look_at_whole(const Picture &picture) {
+    points_ = {{static_cast<float>(picture.width / 2), static_cast<float>(picture.height / 2), 1}};
+    directions_ = {0};
+    vectors_.resize(dimensions_);
+    quarters(picture, vectors_.data());
 }
 
 void Eye::describe(const Picture &picture, const Light &light) {

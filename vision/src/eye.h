@@ -42,6 +42,7 @@ class Eye {
     }
 
   private:
+    void look_at_whole(const Picture &picture);
     void describe(const Picture &picture, const Light &light);
     void describe_by_jets(const Picture &picture, const Light &light);
 

@@ -150,8 +150,8 @@ void rlvc_fitter::whiten_by_covariance(rlvc_metric &metric) const {
     metric.matrix = whitening_of(all, metric.mean, n_);
 }
 
-// Partners are sought under the covariance of all vectors, but for SIFT and ORB, whose distance
-// means something by itself.
+// Partners are sought under the covariance of all vectors, but for SIFT, ORB and the quarters,
+// whose distance means something by itself.
 std::vector<float> rlvc_fitter::all_changes(const rlvc_vision_config &config) const {
     rlvc_metric seeking{};
     seeking.config = config;

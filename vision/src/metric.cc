@@ -54,6 +54,8 @@ Native native(uint32_t descriptor) {
         return {1.0f / 512, 0.25f};
     case RLVC_DESCRIPTOR_ORB:
         return {1.0f / 16, 0};
+    case RLVC_DESCRIPTOR_QUARTERS:
+        return {1, 128};
     default:
         return {0, 0};
     }

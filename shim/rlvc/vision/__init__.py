@@ -10,6 +10,7 @@ pixels. Source: ``vision/include/rlvc/vision.h``.
 from .config import DESCRIPTORS, VisionConfig
 from .extractor import Extractor, Sight
 from .eye import Eye
+from .joined import Joined
 from .metric import METRICS, Metric
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "METRICS",
     "Extractor",
     "Eye",
+    "Joined",
     "Metric",
     "Sight",
     "VisionConfig",

@@ -16,7 +16,7 @@ from ..errors import (
 )
 from .library import call, library
 
-DESCRIPTORS = ("invariants", "sqrt-invariants", "sift-upright", "sift", "orb")
+DESCRIPTORS = ("invariants", "sqrt-invariants", "sift-upright", "sift", "orb", "quarters")
 """The descriptors."""
 
 FORMS = ("float", "int8")
@@ -29,12 +29,14 @@ class VisionConfig:
 
     Attributes
     ----------
-    descriptor : {"sift-upright", "sift", "orb", "invariants", "sqrt-invariants"}
+    descriptor : {"sift-upright", "sift", "orb", "invariants", "sqrt-invariants", "quarters"}
         sift-upright: SIFT without rotation. sift: SIFT rotated to the direction of the point. orb:
         ORB. invariants: the published colour differential invariants of first order.
-        sqrt-invariants: the same with the signed square root of the second-degree terms.
-    points : int
-        P, the maximum number of points of a picture, [1, 1000]; the strongest are kept.
+        sqrt-invariants: the same with the signed square root of the second-degree terms. quarters:
+        one vector for the whole picture, the mean colours of its quarters.
+    points : int or None
+        P, the maximum number of points of a picture, [1, 1000]; the strongest are kept. None: 30,
+        quarters 1.
     radius : int
         In pixels, [1, 31]: a point has the largest response in the square of side 2 radius + 1.
     form : {"float", "int8"}
@@ -67,7 +69,7 @@ class VisionConfig:
     """
 
     descriptor: str = "sift-upright"
-    points: int = 30
+    points: int | None = None
     radius: int = 3
     form: str = "float"
     normalise: bool = False
@@ -83,8 +85,9 @@ class VisionConfig:
     def __post_init__(self) -> None:
         native = self.native()
         call("rlvc_vision_config_check", ctypes.byref(native))
-        if self.sigma is None:
-            object.__setattr__(self, "sigma", float(native.sigma))
+        for name in ("points", "sigma"):
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, getattr(native, name))
 
     def native(self) -> _native.VisionConfig:
         """Make the C struct."""
@@ -112,8 +115,8 @@ class VisionConfig:
         ):
             value = getattr(self, name)
             whole = {"points": 2**32, "radius": 2**32, "axes": 2**8}.get(name)
-            if name == "sigma" and value is None:
-                continue
+            if name in ("points", "sigma") and value is None:
+                continue  # the library's default
             if whole and (not isinstance(value, int) or not 0 <= value < whole):
                 raise ConfigError(f"{name}: {shown(value)} is not an int in range")
             try:

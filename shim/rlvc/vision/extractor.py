@@ -53,6 +53,8 @@ class Extractor(Owned):
     ----------
     config : VisionConfig
     metric : Metric or None
+    points : int
+        P, the maximum number of vectors of a percept.
     dimensions : int
         D, the length of a vector.
     percept_bytes : int
@@ -92,6 +94,7 @@ class Extractor(Owned):
             ctypes.byref(native),
             None if metric is None else metric._handle,
         )
+        self.points = int(native.points)
         self.dimensions = int(library.rlvc_vision_dimensions(ctypes.byref(native)))
         self.percept_bytes = int(library.rlvc_vision_percept_bytes(ctypes.byref(native)))
         self.step = float(library.rlvc_extractor_step(self._handle))
@@ -150,7 +153,7 @@ class Extractor(Owned):
 
     def look(self, picture: Picture, order: Order = "rgb") -> Sight:
         """Like :meth:`extract`, and also return the vectors and their points."""
-        points = np.zeros((self.config.points, 3), np.float32)
+        points = np.zeros((self.points, 3), np.float32)
         record = self._record(picture, order, points.ctypes.data)
         count = int(np.frombuffer(record, np.uint32, 1)[0])
         dtype = np.int8 if self.config.form == "int8" else np.float32
@@ -203,14 +206,14 @@ class Extractor(Owned):
                 raise ConfigError("bags: percepts with places have pairs; make it with places none")
             if bags is not True:
                 parameters["size"] = bags
-            return Bags(self.config.points, self.dimensions, radius, form, **parameters)
+            return Bags(self.points, self.dimensions, radius, form, **parameters)
         if pairs is None:
             pairs = places != "none"
         if pairs is False:
             if places != "none":
                 raise ConfigError("pairs: percepts with places have pairs; make it with places none")
-            return Descriptors(self.config.points, self.dimensions, radius, form, **parameters)
+            return Descriptors(self.points, self.dimensions, radius, form, **parameters)
         if pairs is not True:
             parameters["pairs"] = pairs
         parameters["directed"] = places == "directed"
-        return Spatial(self.config.points, self.dimensions, radius, form, **parameters)
+        return Spatial(self.points, self.dimensions, radius, form, **parameters)

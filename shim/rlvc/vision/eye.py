@@ -12,6 +12,7 @@ from ..checks import one_of, whole
 from ..errors import PictureError
 from .config import VisionConfig
 from .extractor import Extractor, Sight
+from .joined import Joined
 from .library import Order, Picture
 from .metric import Metric
 
@@ -21,18 +22,19 @@ class Eye:
 
     Parameters
     ----------
-    extractor : Extractor
+    extractor : Extractor or Joined
     order : {"rgb", "bgr"}
         Order of the colours in the environment's pictures.
     cache : int
         Number of pictures whose percepts are cached, as environments often repeat pictures.
     **parameters
         ``radius``, ``pairs``, ``bags``, ``candidates``, ``draws`` and ``margin``, as for
-        :meth:`Extractor.domain`. With pairs the extractor's config must have ``places``.
+        :meth:`Extractor.domain` or :meth:`Joined.domain`. With pairs the extractor's config must
+        have ``places``.
 
     Attributes
     ----------
-    extractor : Extractor
+    extractor : Extractor or Joined
     domain : Descriptors, Spatial or Bags
 
     Raises
@@ -44,7 +46,11 @@ class Eye:
     """
 
     def __init__(
-        self, extractor: Extractor, order: Order = "rgb", cache: int = 256, **parameters: Any
+        self,
+        extractor: Extractor | Joined,
+        order: Order = "rgb",
+        cache: int = 256,
+        **parameters: Any,
     ) -> None:
         self.extractor = extractor
         self.domain = extractor.domain(**parameters)
@@ -61,10 +67,11 @@ class Eye:
         -------
         dict
         """
-        metric = self.extractor.metric
+        seen = self.extractor
+        first, second = (seen.first, seen.second) if isinstance(seen, Joined) else (seen, None)
         return {
-            "config": dataclasses.asdict(self.extractor.config),
-            "metric": None if metric is None else metric.write().decode(),
+            **_extractor_to_dict(first),
+            "second": None if second is None else _extractor_to_dict(second),
             "order": self._order,
             "cache": self._cache,
             "parameters": self._parameters,
@@ -87,9 +94,9 @@ class Eye:
         Error
             A field is out of range, or the metric is damaged.
         """
-        text = fields["metric"]
-        metric = None if text is None else Metric.read(text.encode())
-        extractor = Extractor(VisionConfig(**fields["config"]), metric)
+        first = _extractor_from_dict(fields)
+        second = fields.get("second")  # files of earlier builds have none
+        extractor = first if second is None else Joined(first, _extractor_from_dict(second))
         return cls(extractor, fields["order"], fields["cache"], **fields["parameters"])
 
     def encode(self, observation: Picture) -> bytes:
@@ -136,3 +143,17 @@ class Eye:
         str
         """
         return text
+
+
+def _extractor_to_dict(extractor: Extractor) -> dict[str, Any]:
+    metric = extractor.metric
+    return {
+        "config": dataclasses.asdict(extractor.config),
+        "metric": None if metric is None else metric.write().decode(),
+    }
+
+
+def _extractor_from_dict(fields: dict[str, Any]) -> Extractor:
+    text = fields["metric"]
+    metric = None if text is None else Metric.read(text.encode())
+    return Extractor(VisionConfig(**fields["config"]), metric)

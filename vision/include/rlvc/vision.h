@@ -56,7 +56,7 @@ typedef struct rlvc_vision_error {
 
 /* ------------------------------------------------------------------------------------ config */
 
-/* config.descriptor: what stands in a point's vector. Values are pinned.
+/* config.descriptor: what stands in a vector. Values are pinned.
  *
  * - INVARIANTS: the published colour differential invariants of first order, v = (R, |grad R|^2, G,
  *   |grad G|^2, B, |grad B|^2, grad R . grad G, grad R . grad B). A turn leaves them alone.
@@ -65,18 +65,25 @@ typedef struct rlvc_vision_error {
  * - SIFT_UPRIGHT: SIFT, its window not turned. Length 1.
  * - SIFT: SIFT, turned to the point's own direction. Length 1.
  * - ORB: its 256 bits, turned likewise, as +-1/16. Length 1; the distance is the square root of the
- *   Hamming distance, over 8. */
+ *   Hamming distance, over 8.
+ * - QUARTERS: not of a point but of the whole picture, which has one vector: mean red, green and
+ *   blue of its upper left quarter, the upper right, the lower left and the lower right, in grey
+ *   levels. It tells places apart that have no corners, as parts of a sky. Its point is the
+ *   picture's centre, of response 1, and `normalise` and what concerns points take no notice of it;
+ *   its direction is that of the right edge. */
 #define RLVC_DESCRIPTOR_INVARIANTS 0u
 #define RLVC_DESCRIPTOR_SQRT_INVARIANTS 1u
 #define RLVC_DESCRIPTOR_SIFT_UPRIGHT 2u
 #define RLVC_DESCRIPTOR_SIFT 3u
 #define RLVC_DESCRIPTOR_ORB 4u
-#define RLVC_DESCRIPTORS 5u
+#define RLVC_DESCRIPTOR_QUARTERS 5u
+#define RLVC_DESCRIPTORS 6u
 
 /* D of each descriptor, and the largest. */
 #define RLVC_DIMENSIONS_INVARIANTS 8u
 #define RLVC_DIMENSIONS_SIFT 128u
 #define RLVC_DIMENSIONS_ORB 256u
+#define RLVC_DIMENSIONS_QUARTERS 12u
 #define RLVC_DIMENSIONS_MAX 256u
 
 /* config.form: how a number of a vector stands in the percept. Values are pinned. */
@@ -95,7 +102,7 @@ typedef struct rlvc_vision_error {
 typedef struct rlvc_vision_config {
     uint32_t descriptor; /* RLVC_DESCRIPTOR_*. Default: what was asked for */
     uint32_t points;     /* P, the most points of a picture, [1, RLVC_POINTS_MAX]; the strongest are
-                            kept. Default 30 */
+                            kept. Default 30, QUARTERS 1 */
     uint32_t radius;     /* pixels: a point's response exceeds all others in the square of side
                             2 radius + 1 around it, [1, 31]. Default 3 */
     uint8_t form;        /* RLVC_FORM_*. Default RLVC_FORM_FLOAT */
@@ -135,7 +142,7 @@ RLVC_API rlvc_vision_status rlvc_vision_config_check(const rlvc_vision_config *c
 RLVC_API uint32_t rlvc_vision_dimensions(const rlvc_vision_config *config);
 
 /* The name of a descriptor, as files have it: "invariants", "sqrt-invariants", "sift-upright",
- * "sift", "orb"; null for a value that is none. O(1). */
+ * "sift", "orb", "quarters"; null for a value that is none. O(1). */
 RLVC_API const char *rlvc_descriptor_name(uint32_t descriptor);
 
 /* The descriptor of a name. O(1).
@@ -207,7 +214,7 @@ typedef struct rlvc_metric rlvc_metric;
 
 /* How a metric was fitted. Values are pinned.
  *
- * - PLAIN: no whitening, tau and step alone. For SIFT and ORB.
+ * - PLAIN: no whitening, tau and step alone. For SIFT, ORB and QUARTERS.
  * - COVARIANCE: W^T W is the inverse covariance of all vectors (Mahalanobis's distance).
  * - CHANGE: ... of the change of a point's vector between two pictures of the same, so that what
  *   varies by itself weighs little.
@@ -282,7 +289,7 @@ RLVC_API rlvc_vision_status rlvc_extractor_extract(rlvc_extractor *extractor,
 
 /* What one step of the percept's numbers is worth: 1 in the float form; in the int8 form the
  * metric's step, or the descriptor's own: 1/512 for SIFT, whose numbers stand there minus 1/4
- * (nothing is lost but that 0 becomes 1/512), and 1/16 for ORB. O(1). */
+ * (nothing is lost but that 0 becomes 1/512), 1/16 for ORB, and 1 for QUARTERS, minus 128. O(1). */
 RLVC_API float rlvc_extractor_step(const rlvc_extractor *extractor);
 
 /* Frees an extractor; null is allowed. */
