@@ -390,6 +390,47 @@ static void test_memory(void **state) {
     assert_true(memory[(bytes + 7u) / 8u] == UINT64_C(0x5a5a5a5a5a5a5a5a));
 }
 
+/* A block of the ample size is made use of, one of a byte less is not; both learn the same by the
+ * same work. */
+static void test_ample_memory(void **state) {
+    (void)state;
+    static uint64_t ample[60000], other[60000];
+    rlvc_config config = small_config();
+    size_t bytes, least;
+    assert_int_equal(rlvc_planner_ample_size(&config, &planner_domain, NULL), RLVC_E_NULL);
+    config.leaves = 1;
+    assert_int_equal(rlvc_planner_ample_size(&config, &planner_domain, &bytes), RLVC_E_CONFIG);
+    assert_int_equal(bytes, 0);
+    config = small_config();
+    assert_int_equal(rlvc_planner_ample_size(&config, &planner_domain, &bytes), RLVC_OK);
+    assert_int_equal(planner_size(&config, &least), RLVC_OK);
+    assert_true(bytes > least && bytes <= sizeof ample);
+    rlvc_planner *planner[2];
+    player p[2];
+    block_fill(ample, 0x5a, sizeof ample);
+    block_fill(other, 0x5a, sizeof other);
+    assert_int_equal(planner_init(&config, ample, bytes, planner), RLVC_OK);
+    assert_int_equal(planner_init(&config, other, bytes - 1u, planner + 1), RLVC_OK);
+    assert_non_null(planner[0]->planning.search.reach[1].box);
+    assert_null(planner[1]->planning.search.reach[0].box);
+    for (uint32_t i = 0; i < 2; i++) {
+        start(p + i, planner[i], 3);
+        play(p + i, 1500);
+    }
+    assert_true(p[0].work == p[1].work && stats_of(planner[0]).searches > 3);
+    assert_int_equal(planner[0]->archive.count, planner[1]->archive.count);
+    for (uint32_t i = 0; i < planner[0]->archive.count; i++) {
+        const rlvc_trial *one = planner[0]->archive.trial + i;
+        const rlvc_trial *same = planner[1]->archive.trial + i;
+        assert_true(one->promise == same->promise && one->score == same->score);
+        assert_int_equal(one->tree.nodes, same->tree.nodes);
+        assert_memory_equal(one->tree.node, same->tree.node,
+                            one->tree.nodes * sizeof *one->tree.node);
+    }
+    assert_true(other[(least + 7u) / 8u] == UINT64_C(0x5a5a5a5a5a5a5a5a));
+    assert_true(ample[(bytes + 7u) / 8u] == UINT64_C(0x5a5a5a5a5a5a5a5a));
+}
+
 /* The macro is enough for every shape, and not much more. */
 static void test_the_macro_is_enough(void **state) {
     (void)state;
@@ -515,6 +556,7 @@ int main(void) {
         cmocka_unit_test(test_equally_good_is_learnt),
         cmocka_unit_test(test_defaults_and_ranges),
         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_ample_memory),
         cmocka_unit_test(test_the_macro_is_enough),
         cmocka_unit_test(test_nulls_and_order),
         cmocka_unit_test(test_bad_percepts_and_rewards),

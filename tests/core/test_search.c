@@ -18,6 +18,7 @@
 #define STARTS 6u
 
 static uint64_t block[60000];
+static rlvc_reach reach[2];
 static rlvc_experience ring;
 static rlvc_dynamics model[RLVC_ROLLOUT_MODELS];
 static rlvc_dynamics_fit_cursor fit;
@@ -34,6 +35,8 @@ static void carve(rlvc_arena *arena) {
     sample.room = ROWS;
     sample.row = rlvc_arena_carve(arena, ROWS, sizeof *sample.row);
     search.rollout.s = rlvc_arena_carve(arena, 2, sizeof(float));
+    for (uint32_t k = 0; k < 2; k++)
+        rlvc_reach_carve(reach + k, arena, STARTS, RLVC_SMALL_LEAVES_MAX, 2);
 }
 
 /* A model of the slider. */
@@ -350,6 +353,116 @@ static void test_a_search_for_what_is_new(void **state) {
     assert_true(search.best == 0.0f);
 }
 
+/* ------------------------------------------------------------------ rollouts that repeat */
+
+/* From now on the search remembers where rollouts passed, or does not. */
+static void remember(int yes) {
+    memset(search.reach, 0, sizeof search.reach);
+    if (yes)
+        memcpy(search.reach, reach, sizeof reach);
+}
+
+/* The cursor of a search that is done, without what remembering takes. */
+static void run_and_keep(const rlvc_search_input *in, uint32_t budget, rlvc_search_cursor *kept,
+                         uint32_t *spent, uint32_t calls) {
+    rlvc_small_tree tree;
+    damped(&tree);
+    rlvc_search_begin(&search, in, &tree);
+    for (uint32_t i = 0; i < calls; i++)
+        spent[i] = rlvc_search_step(&search, budget);
+    while (!search.done)
+        (void)rlvc_search_step(&search, budget);
+    memcpy(kept, &search, sizeof search);
+}
+
+/* Neither what is found nor the work of any call depends on it. */
+static void test_remembering_changes_nothing(void **state) {
+    (void)state;
+    static rlvc_search_cursor plain, remembered;
+    const uint32_t units = rlvc_rollout_units(model);
+    const uint32_t budgets[] = {UINT32_MAX, 1, units, 60u * units, 60u * units + 1u, 12345, 100000};
+    for (uint32_t i = 0; i < sizeof budgets / sizeof *budgets; i++) {
+        uint32_t spent[2][200];
+        rlvc_search_input in = searched(300, 300);
+        remember(0);
+        run_and_keep(&in, budgets[i], &plain, spent[0], 200);
+        remember(1);
+        run_and_keep(&in, budgets[i], &remembered, spent[1], 200);
+        assert_memory_equal(spent[0], spent[1], sizeof spent[0]);
+        assert_int_equal(remembered.tried, plain.tried);
+        assert_int_equal(remembered.gained, plain.gained);
+        assert_int_equal(remembered.steps, plain.steps);
+        assert_true(remembered.best == plain.best);
+        assert_memory_equal(remembered.reference, plain.reference, sizeof plain.reference);
+        assert_memory_equal(remembered.tree.node, plain.tree.node,
+                            plain.tree.nodes * sizeof *plain.tree.node);
+        for (uint32_t k = 0; k < plain.tree.nodes; k++)
+            assert_int_equal(remembered.visits[k] > 0, plain.visits[k] > 0);
+    }
+    remember(0);
+}
+
+/* Of the first candidate, from how many starts the search believes what it is told of the tree in
+ * hand, which is one less than it earned. */
+static uint32_t believed(rlvc_search_input *in, uint32_t budget) {
+    rlvc_small_tree tree;
+    uint32_t count = 0;
+    damped(&tree);
+    rlvc_search_begin(&search, in, &tree);
+    while (search.first)
+        (void)rlvc_search_step(&search, 1);
+    for (uint32_t i = 0; i < STARTS; i++) {
+        search.reference[i] -= 1.0f;
+        search.earned[i] = NAN;
+    }
+    (void)rlvc_search_step(&search, 1); /* the move */
+    while (!search.done)
+        (void)rlvc_search_step(&search, budget);
+    for (uint32_t i = 0; i < STARTS; i++) {
+        rlvc_rollout rollout = search.rollout;
+        rlvc_rollout_begin(&rollout, &in->rollout, start + 2u * i, i);
+        while (!rollout.done)
+            rlvc_rollout_step(&rollout, &in->rollout, &search.candidate, NULL);
+        count += fabsf(search.earned[i] - (rollout.total - 1.0f)) < 1e-4f;
+    }
+    return count;
+}
+
+/* Only those are not made whose 60 steps fit into the budget. */
+static void test_what_repeats_is_not_made_again(void **state) {
+    (void)state;
+    uint32_t units = rlvc_rollout_units(model), all = 0, fitting = 0;
+    rlvc_search_input in = searched(1, 40);
+    for (in.seed = 0; in.seed < 50; in.seed++) {
+        remember(1);
+        all += believed(&in, UINT32_MAX);
+        fitting += believed(&in, 59u * units + 1u);
+        assert_int_equal(believed(&in, 59u * units), 0);
+        remember(0);
+        assert_int_equal(believed(&in, UINT32_MAX), 0);
+    }
+    assert_true(all > 50 && fitting > 50 && fitting <= all);
+}
+
+/* Novelty depends on the cells that all rollouts before have marked. */
+static void test_what_is_new_is_looked_for_again(void **state) {
+    (void)state;
+    static rlvc_search_cursor plain;
+    rlvc_search_input in = searched(200, 200);
+    in.rollout.fresh = fresh;
+    in.known = known;
+    in.cells_bytes = sizeof known;
+    memset(known, 0, sizeof known);
+    remember(0);
+    run(&in, UINT32_MAX);
+    plain = search;
+    remember(1);
+    run(&in, UINT32_MAX);
+    assert_true(search.best == plain.best && search.steps == plain.steps);
+    assert_memory_equal(search.earned, plain.earned, sizeof plain.earned);
+    remember(0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_rollout_earns_what_the_world_gives),
@@ -364,6 +477,9 @@ int main(void) {
         cmocka_unit_test(test_a_search_takes_so_many_steps),
         cmocka_unit_test(test_slices_change_nothing),
         cmocka_unit_test(test_a_search_for_what_is_new),
+        cmocka_unit_test(test_remembering_changes_nothing),
+        cmocka_unit_test(test_what_repeats_is_not_made_again),
+        cmocka_unit_test(test_what_is_new_is_looked_for_again),
     };
     return cmocka_run_group_tests(tests, make_model, NULL);
 }

@@ -96,6 +96,15 @@ def test_what_is_learnt_does_not_depend_on_the_slices(learnt):
     assert sliced.statistics == learnt.statistics
 
 
+def test_its_block_has_room_for_what_saves_time(learnt):
+    config, domain = learnt._native_config, learnt._native_domain
+    least, ample = ctypes.c_size_t(), ctypes.c_size_t()
+    for call, size in (("agent", least), ("planner_ample", ample)):
+        call = getattr(_native.call, f"rlvc_{call}_size")
+        assert call(ctypes.byref(config), ctypes.byref(domain), ctypes.byref(size)) == _native.OK
+    assert least.value < ample.value == learnt.memory_bytes
+
+
 def test_many_percepts_at_once_are_predicted_as_one_by_one(learnt):
     x = rows()
     assert learnt.predict(x).tolist() == [learnt.predict(row) for row in x]

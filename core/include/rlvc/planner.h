@@ -59,6 +59,14 @@ extern "C" {
          ? (components) + (actions) + (components) * ((components) + 1u) / 2u                      \
          : (components) + (actions))
 
+/* The size of a block in which a planner learns the same in half of the time or less: it remembers
+ * where the rollouts of a policy passed, and does not make again what a candidate would repeat.
+ * That takes 1,000 * leaves * (components + 1) bytes beside rlvc_agent_size, about. A block
+ * of rlvc_agent_init and rlvc_load that is so large is made use of. O(1).
+ * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG: *bytes is 0. */
+RLVC_API rlvc_status rlvc_planner_ample_size(const rlvc_config *config, const rlvc_domain *domain,
+                                             size_t *bytes);
+
 /* The action at any percept, by the policy that acts in the next episode: for episodes in several
  * worlds at once, each of which is observed when it has ended, by rlvc_begin and rlvc_observe,
  * before the next step of learning. O(depth).

@@ -36,14 +36,15 @@ static inline void rlvc_basis_row(const rlvc_basis *basis, uint32_t terms, const
                                   uint32_t action, float *x) {
     uint32_t d = basis->components, at = d + basis->actions;
     x[0] = 1.0f;
-    for (uint32_t i = 0; i < d; i++)
-        x[1u + i] = (percept[i] - basis->mean[i]) / basis->scale[i];
+    int products = terms > at;
+    for (uint32_t i = 1; i <= d; i++) {
+        float z = (percept[i - 1u] - basis->mean[i - 1u]) / basis->scale[i - 1u];
+        x[i] = z;
+        for (uint32_t j = 1; products && j <= i; j++)
+            x[at++] = z * x[j];
+    }
     for (uint32_t a = 1; a < basis->actions; a++)
         x[d + a] = a == action ? 1.0f : 0.0f;
-    if (terms > at)
-        for (uint32_t i = 1; i <= d; i++)
-            for (uint32_t j = 1; j <= i; j++)
-                x[at++] = x[i] * x[j];
 }
 
 #endif

@@ -268,19 +268,19 @@ static float clamp(float x, float low, float high) {
 
 /* Nearly normal: the sum of four uniform numbers, of deviation 1. */
 static float draw_noise(rlvc_rng *rng) {
-    float sum = 0.0f;
+    uint32_t sum = 0;
     for (int i = 0; i < 2; i++) {
         uint32_t word = rlvc_rng_next(rng);
-        sum += (float)(word & 0xffffu) + (float)(word >> 16);
+        sum += (word & 0xffffu) + (word >> 16);
     }
-    return (sum * (1.0f / 65536.0f) - 2.0f) * 1.7320508f;
+    return ((float)sum * (1.0f / 65536.0f) - 2.0f) * 1.7320508f;
 }
 
-static float predict(const rlvc_dynamics *dynamics, const rlvc_model_tree *tree, const float *s,
-                     uint32_t action, rlvc_rng *rng) {
+/* What a leaf of a tree says to the row x of the basis. */
+static float predict(const rlvc_dynamics *dynamics, const rlvc_model_tree *tree, uint32_t index,
+                     rlvc_rng *rng) {
     if (tree->terms == 0)
         return tree->mean;
-    uint32_t index = rlvc_model_tree_leaf(tree, dynamics->basis.components, s, action);
     const rlvc_model_leaf *leaf = tree->leaf + index;
     float y = clamp(rlvc_model_tree_linear(tree, index, dynamics->x), leaf->low, leaf->high);
     if (rng && leaf->noise > NOISE_LEAST)
@@ -291,14 +291,16 @@ static float predict(const rlvc_dynamics *dynamics, const rlvc_model_tree *tree,
 void rlvc_dynamics_step(const rlvc_dynamics *dynamics, float *s, uint32_t action, rlvc_rng *rng,
                         rlvc_outcome *outcome) {
     const rlvc_basis *basis = &dynamics->basis;
-    float change[RLVC_COMPONENTS_MAX];
+    uint32_t leaf_of[RLVC_COMPONENTS_MAX + 1u], d = basis->components;
     rlvc_basis_row(basis, dynamics->terms_max, s, action, dynamics->x);
-    for (uint32_t k = 0; k < basis->components; k++)
-        change[k] = predict(dynamics, dynamics->tree + k, s, action, rng);
-    float reward = predict(dynamics, dynamics->tree + basis->components, s, action, rng);
+    for (uint32_t k = 0; k <= d; k++)
+        leaf_of[k] = rlvc_model_tree_leaf(dynamics->tree + k, d, s, action);
+    for (uint32_t k = 0; k < d; k++) {
+        float change = predict(dynamics, dynamics->tree + k, leaf_of[k], rng);
+        s[k] = clamp(s[k] + change, dynamics->low[k], dynamics->high[k]);
+    }
+    float reward = predict(dynamics, dynamics->tree + d, leaf_of[d], rng);
     outcome->reward = clamp(reward, dynamics->reward_low, dynamics->reward_high);
-    for (uint32_t k = 0; k < basis->components; k++)
-        s[k] = clamp(s[k] + change[k], dynamics->low[k], dynamics->high[k]);
     const rlvc_ending_node *leaf = rlvc_ending_at(&dynamics->ending, s);
     outcome->end = leaf->probability;
     outcome->end_reward = leaf->reward;

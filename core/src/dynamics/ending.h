@@ -33,11 +33,18 @@ typedef struct rlvc_ending {
     rlvc_ending_node node[RLVC_ENDING_NODES];
 } rlvc_ending;
 
+/* The leaf of a percept. O(depth). By branches, as rlvc_model_tree_leaf. */
 static inline const rlvc_ending_node *rlvc_ending_at(const rlvc_ending *ending,
                                                      const float *percept) {
     const rlvc_ending_node *node = ending->node;
-    while (node->component != RLVC_ENDING_LEAF)
-        node = ending->node + node->child + (percept[node->component] > node->cut);
+    while (node->component != RLVC_ENDING_LEAF) {
+        const rlvc_ending_node *child = ending->node + node->child;
+        if (percept[node->component] > node->cut) {
+            node = child + 1;
+            continue;
+        }
+        node = child;
+    }
     return node;
 }
 

@@ -6,6 +6,7 @@
 #include "planner_state.h"
 
 #include "cells.h"
+#include "../base/solver_select.h"
 #include <string.h>
 
 /* ------------------------------------------------------------------ memory */
@@ -67,8 +68,18 @@ static void carve(rlvc_planner *planner, rlvc_arena *arena, const rlvc_config *c
     carve_own(planner, arena, config, d);
 }
 
-rlvc_status rlvc_planner_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
+/* Carves what only saves time, behind all the rest. */
+static void carve_reach(rlvc_reach *reach, rlvc_arena *arena, const rlvc_config *config,
+                        uint32_t d) {
+    for (uint32_t k = 0; k < 2u; k++)
+        rlvc_reach_carve(reach + k, arena, RLVC_SEARCH_STARTS, config->leaves, d);
+}
+
+/* The size of a block, without what only saves time or with it. */
+static rlvc_status size_of(const rlvc_config *config, const rlvc_domain *domain, int ample,
+                           size_t *bytes) {
     rlvc_arena arena = {NULL, 0};
+    rlvc_reach spare[2];
     if (!bytes)
         return RLVC_E_NULL;
     *bytes = 0;
@@ -76,13 +87,24 @@ rlvc_status rlvc_planner_size(const rlvc_config *config, const rlvc_domain *doma
     if (status != RLVC_OK)
         return status;
     carve(NULL, &arena, config, rlvc_planner_components(domain));
+    if (ample)
+        carve_reach(spare, &arena, config, rlvc_planner_components(domain));
     *bytes = (size_t)arena.used;
     return RLVC_OK;
 }
 
+rlvc_status rlvc_planner_size(const rlvc_config *config, const rlvc_domain *domain, size_t *bytes) {
+    return size_of(config, domain, 0, bytes);
+}
+
+rlvc_status rlvc_planner_ample_size(const rlvc_config *config, const rlvc_domain *domain,
+                                    size_t *bytes) {
+    return size_of(config, domain, 1, bytes);
+}
+
 rlvc_status rlvc_planner_init(const rlvc_config *config, const rlvc_domain *domain, void *memory,
                               size_t bytes, rlvc_agent **agent) {
-    size_t needed;
+    size_t needed, ample;
     if (!agent)
         return RLVC_E_NULL;
     *agent = NULL;
@@ -91,16 +113,20 @@ rlvc_status rlvc_planner_init(const rlvc_config *config, const rlvc_domain *doma
         status = rlvc_arena_check(memory, bytes, needed);
     if (status != RLVC_OK)
         return status;
+    (void)size_of(config, domain, 1, &ample);
+    const int roomy = RLVC_AT_ONCE && bytes >= ample;
     const rlvc_config copied_config = *config; /* they may lie in the block */
     const rlvc_domain copied_domain = *domain;
     rlvc_arena arena = {(unsigned char *)memory, 0};
     rlvc_planner *made = memory;
-    RLVC_UNPOISON(memory, needed);
+    RLVC_UNPOISON(memory, roomy ? ample : needed);
     memset(memory, 0, needed);
     made->config = copied_config;
     made->domain = copied_domain;
     made->components = rlvc_planner_components(&copied_domain);
     carve(made, &arena, &copied_config, made->components);
+    if (roomy)
+        carve_reach(made->planning.search.reach, &arena, &copied_config, made->components);
     made->gainful = 1;
     rlvc_rng_seed(&made->rng, copied_config.seed);
     *agent = memory;

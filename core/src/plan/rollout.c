@@ -16,6 +16,7 @@ void rlvc_rollout_begin(rlvc_rollout *rollout, const rlvc_rollout_input *in, con
     rollout->stream = rlvc_rng_next(&rng);
     for (uint32_t i = 0; i < in->model->basis.components; i++)
         rollout->s[i] = percept[i];
+    rollout->box = NULL;
     rollout->alive = 1.0f;
     rollout->total = rollout->novelty = 0.0f;
     rollout->step = 0;
@@ -33,6 +34,9 @@ void rlvc_rollout_step(rlvc_rollout *rollout, const rlvc_rollout_input *in,
     uint32_t leaf = rlvc_small_tree_leaf(policy, rollout->s), action = policy->node[leaf].action;
     if (visits)
         visits[leaf]++;
+    if (rollout->box)
+        rlvc_reach_note(rollout->box + (size_t)leaf * 2u * dynamics->basis.components, rollout->s,
+                        dynamics->basis.components);
     if (!rollout->plain && rlvc_rng_uniform(&rng) < RANDOM_SHARE)
         action = rlvc_rng_below(&rng, dynamics->basis.actions);
     rlvc_dynamics_step(dynamics, rollout->s, action, &rng, &outcome);

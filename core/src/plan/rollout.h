@@ -16,7 +16,7 @@
 #define RLVC_SRC_ROLLOUT_H
 
 #include "../dynamics/dynamics.h"
-#include "small_tree.h"
+#include "reach.h"
 
 #define RLVC_ROLLOUT_MODELS 2u
 
@@ -31,6 +31,7 @@ typedef struct rlvc_rollout_input {
 typedef struct rlvc_rollout {
     uint32_t stream; /* the seeds of its steps begin here */
     float *s;        /* [components] */
+    float *box;      /* optional: the boxes of the tree's nodes (reach.h), which it widens */
     float alive;     /* the probability that the episode goes on */
     float total;     /* expected return so far */
     float novelty;   /* new cells so far, each by the probability that it is reached */

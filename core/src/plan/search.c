@@ -4,6 +4,8 @@
 
 #include "search.h"
 
+#include "../base/solver_select.h"
+
 #include <string.h>
 
 #define LAG 0.05f
@@ -18,6 +20,13 @@ static float absolute(float x) {
     return x < 0.0f ? -x : x;
 }
 
+/* Begins the candidate's next rollout. */
+static void open_rollout(rlvc_search_cursor *search) {
+    const rlvc_search_input *in = &search->in;
+    const float *start = in->start + (size_t)search->start * in->rollout.model->basis.components;
+    rlvc_rollout_begin(&search->rollout, &in->rollout, start, search->start);
+}
+
 static void open_candidate(rlvc_search_cursor *search) {
     search->start = 0;
     search->sum = search->reference_sum = 0.0f;
@@ -25,13 +34,16 @@ static void open_candidate(rlvc_search_cursor *search) {
     memset(search->candidate_visits, 0, sizeof search->candidate_visits);
     if (search->in.rollout.fresh)
         memcpy(search->in.rollout.fresh, search->in.known, search->in.cells_bytes);
-    rlvc_rollout_begin(&search->rollout, &search->in.rollout, search->in.start, 0);
+    open_rollout(search);
 }
 
 void rlvc_search_begin(rlvc_search_cursor *search, const rlvc_search_input *in,
                        const rlvc_small_tree *tree) {
     float *s = search->rollout.s;
+    rlvc_reach reach[2];
+    memcpy(reach, search->reach, sizeof reach);
     memset(search, 0, sizeof *search);
+    memcpy(search->reach, reach, sizeof reach);
     search->rollout.s = s;
     search->in = *in;
     search->tree = *tree;
@@ -46,6 +58,7 @@ static void accept(rlvc_search_cursor *search, float mean) {
     search->best = mean;
     memcpy(search->reference, search->earned, sizeof search->reference);
     memcpy(search->visits, search->candidate_visits, sizeof search->visits);
+    search->hand ^= 1u;
 }
 
 static void end_of_candidate(rlvc_search_cursor *search) {
@@ -86,9 +99,7 @@ static void end_of_rollout(rlvc_search_cursor *search) {
     } else if (lags(search)) {
         search->rolling = 0;
     } else {
-        const float *start =
-            in->start + (size_t)search->start * in->rollout.model->basis.components;
-        rlvc_rollout_begin(&search->rollout, &in->rollout, start, search->start);
+        open_rollout(search);
     }
 }
 
@@ -118,6 +129,41 @@ static void next_candidate(rlvc_search_cursor *search) {
         open_candidate(search);
 }
 
+/* Is reach there, and of use? Novelty depends on all rollouts before. */
+static int remembers(const rlvc_search_cursor *search) {
+    return RLVC_AT_ONCE && search->reach[0].box && !search->in.rollout.fresh;
+}
+
+/* Is the rollout that begins known to be that of the tree in hand, and would it end within so many
+ * steps of the model? */
+static int repeats(rlvc_search_cursor *search, uint32_t most) {
+    const rlvc_reach *hand = search->reach + search->hand;
+    uint32_t start = search->start;
+    return !search->first && hand->steps[start] <= most &&
+           rlvc_reach_repeats(hand, &search->tree, start, &search->candidate,
+                              search->reach + (search->hand ^ 1u), search->candidate_visits);
+}
+
+/* One step of the rollout, or at its beginning all of them, up to `most`, if they are known.
+ * @return how many. */
+static uint32_t roll(rlvc_search_cursor *search, uint32_t most) {
+    rlvc_rollout *rollout = &search->rollout;
+    if (rollout->step == 0 && remembers(search)) {
+        rlvc_reach *reach = search->reach + (search->hand ^ 1u);
+        if (repeats(search, most)) {
+            rollout->total = search->reference[search->start];
+            rollout->done = 1;
+            return reach->steps[search->start];
+        }
+        rlvc_reach_clear(reach, search->start);
+        rollout->box = rlvc_reach_boxes(reach, search->start);
+    }
+    rlvc_rollout_step(rollout, &search->in.rollout, &search->candidate, search->candidate_visits);
+    if (rollout->done && rollout->box)
+        search->reach[search->hand ^ 1u].steps[search->start] = rollout->step;
+    return 1;
+}
+
 uint32_t rlvc_search_step(rlvc_search_cursor *search, uint32_t budget) {
     uint32_t spent = 0, units = rlvc_rollout_units(search->in.rollout.model);
     while (spent < budget && !search->done) {
@@ -125,12 +171,11 @@ uint32_t rlvc_search_step(rlvc_search_cursor *search, uint32_t budget) {
             next_candidate(search);
             spent += MOVE_UNITS;
         } else {
-            rlvc_rollout_step(&search->rollout, &search->in.rollout, &search->candidate,
-                              search->candidate_visits);
-            search->steps++;
+            uint32_t steps = roll(search, (budget - spent - 1u) / units + 1u);
+            search->steps += steps;
+            spent += steps * units;
             if (search->rollout.done)
                 end_of_rollout(search);
-            spent += units;
         }
     }
     return spent;

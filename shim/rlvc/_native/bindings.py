@@ -759,6 +759,7 @@ CORE: Functions = {
         c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p,
     ]),
     "rlvc_snapshot_peek": (c.c_int, [c.c_void_p, c.c_void_p]),
+    "rlvc_planner_ample_size": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_planner_act_at": (c.c_int, [c.c_void_p, c.c_void_p, c.c_void_p]),
     "rlvc_planner_node": (c.c_int, [c.c_void_p, c.c_uint32, c.c_void_p]),
     "rlvc_planner_policy_of": (c.c_int, [

@@ -59,6 +59,7 @@ class Agent(Queries):
     True
     """
 
+    _size = "rlvc_agent_size"
     _slice = 1 << 20
     _end_is_seen = False
     _config_type = Config

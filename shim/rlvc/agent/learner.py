@@ -33,6 +33,7 @@ _NOTHING = object()
 class Learner(Handle, Generic[_D, _C]):
     """Base class of :class:`rlvc.Agent` and :class:`rlvc.Planner`."""
 
+    _size: str  # the function that gives the size of its block
     _slice: int  # budget of a slice of learning, after which Ctrl-C is noticed: milliseconds
     _end_is_seen: bool  # s' is needed also where an episode terminated
     _config_type: type[_C]
@@ -67,7 +68,7 @@ class Learner(Handle, Generic[_D, _C]):
         self._native_config = self._to_native(self._config, self._native_domain)
         references = (_byref(self._native_config), _byref(self._native_domain))
         size = ctypes.c_size_t()
-        self._check(_native.call.rlvc_agent_size(*references, _byref(size)))
+        self._check(getattr(_native.call, self._size)(*references, _byref(size)))
         what = f"{'an' if self._noun == 'agent' else 'a'} {self._noun}"
         self._block = allocated(size.value, what, "reduce capacity")
         agent = ctypes.c_void_p()

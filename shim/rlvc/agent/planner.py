@@ -68,6 +68,7 @@ class Planner(Learner[Thresholds, PlannerConfig]):
 
     _noun = "planner"
 
+    _size = "rlvc_planner_ample_size"
     _slice = 1 << 22
     _end_is_seen = True
     _config_type = PlannerConfig
