@@ -366,6 +366,14 @@ static rlvc_status search_sorted(rlvc_agent *agent, uint32_t budget, uint32_t *u
     return RLVC_OK;
 }
 
+/* Begins the search of class `at`, if it is not under way. */
+static void open_class(rlvc_agent *agent) {
+    if (!agent->learner.searching) {
+        agent->pending[agent->learner.at] = 0;
+        rlvc_learner_begin_search(agent);
+    }
+}
+
 /* Works on class `at`, or on what is influenced in all. */
 static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *used) {
     rlvc_learner *learner = &agent->learner;
@@ -377,10 +385,7 @@ static rlvc_status step_search(rlvc_agent *agent, uint32_t budget, uint32_t *use
         end_round(agent);
         return RLVC_OK;
     }
-    if (!learner->searching) {
-        agent->pending[learner->at] = 0;
-        rlvc_learner_begin_search(agent);
-    }
+    open_class(agent);
     if (rests_on_order(agent))
         return search_sorted(agent, budget, used);
     if (succession ? !learner->work.successors.done : !learner->work.split.done)
