@@ -61,7 +61,7 @@ extern "C" {
 
 /* The size of a block in which a planner learns the same in half of the time or less: it remembers
  * where the rollouts of a policy passed, and does not make again what a candidate would repeat.
- * That takes 1,000 * leaves * (components + 1) bytes beside rlvc_agent_size, about. A block
+ * That takes 2,000 * leaves * components bytes beside rlvc_agent_size, about. A block
  * of rlvc_agent_init and rlvc_load that is so large is made use of. O(1).
  * @return RLVC_OK; RLVC_E_NULL; RLVC_E_CONFIG: *bytes is 0. */
 RLVC_API rlvc_status rlvc_planner_ample_size(const rlvc_config *config, const rlvc_domain *domain,
