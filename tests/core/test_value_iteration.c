@@ -336,14 +336,29 @@ static rlvc_explorer explorer = {count, to_novel, 0, RLVC_NO_ACTION};
 static rlvc_novelty_cursor find_novelty(uint32_t max_sweeps, uint32_t slice) {
     rlvc_novelty_cursor novelty;
     const rlvc_solver_input input = {rows.transition, CLASSES, max_sweeps, 0.9f, 1e-3f};
-    rlvc_novelty_begin(&novelty, &input, &values);
+    rlvc_novelty_begin(&novelty, &input, &values, aliasing.returns.end);
     while (!novelty.done)
-        assert_in_range(rlvc_novelty_step(&novelty, &input, &values, &explorer, slice), 1, slice);
+        assert_in_range(rlvc_novelty_step(&novelty, &input, &values, &replay, &explorer, slice), 1,
+                        slice);
     return novelty;
 }
 
+/* The chance that an episode begins where none has begun. */
+static double plain_chance(void) {
+    double begun[CLASSES] = {0.0}, episodes = 0.0, once = 0.0;
+    for (uint32_t position = 1; position < aliasing.returns.end; position++) {
+        if (rlvc_replay_linked(&replay, rlvc_replay_slot(&replay, position - 1u)))
+            continue;
+        begun[replay.label[rlvc_replay_slot(&replay, position)]] += 1.0;
+        episodes += 1.0;
+    }
+    for (uint32_t c = 0; c < CLASSES; c++)
+        once += begun[c] == 1.0 ? 1.0 : 0.0;
+    return episodes > 0.0 ? once / episodes : 0.0;
+}
+
 static double plain_nearness(uint32_t pair, const double u[CLASSES]) {
-    double sum = 0.0;
+    double sum = transitions[pair][CLASSES] * plain_chance();
     for (uint32_t next = 0; next < CLASSES; next++)
         sum += transitions[pair][next] * u[next];
     return tried[pair] < (double)explorer.min_tried ? 1.0 : 0.95 * sum / tried[pair];
@@ -377,11 +392,14 @@ static void check_nearness(uint32_t seed) {
 
 static void test_novelty(void **state) {
     (void)state;
-    uint32_t leading = 0, others = 0;
+    uint32_t leading = 0, others = 0, new_starts = 0;
     for (uint32_t seed = 1; seed < 9u; seed++) {
         make_values();
         make_database(seed, seed == 8u ? 399 : 40u * seed, seed % 2u == 0);
+        if (seed < 4u) /* few episodes */
+            make_database(seed, 12u * seed, 0);
         count_plainly();
+        new_starts += plain_chance() > 0.0;
         for (uint32_t m = 0; m < 30u; m += 1u + m / 4u) {
             float first[CLASSES];
             explorer.min_tried = (uint8_t)m;
@@ -400,7 +418,7 @@ static void test_novelty(void **state) {
             }
         }
     }
-    assert_true(leading > 5 && others > 50);
+    assert_true(leading > 5 && others > 50 && new_starts > 1);
 }
 
 /* Sweeps run out; and a table of counts that is not there is not written. */

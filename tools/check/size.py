@@ -31,7 +31,7 @@ EXAMPLES = {  # name: heading, target, memory at most and stack set aside, a def
 }
 LEAN = ("-DRLVC_METHODS=1", "-DRLVC_SOLVERS=1", "-DRLVC_SCORES=1", "-DRLVC_CRITERIA=2", "-DRLVC_DOMAINS=2",
         "-DRLVC_ORACLES=1", "-DRLVC_DEPENDENCES=1", "-DRLVC_EFFECTS=1",
-        "-DRLVC_DISCOUNTS=1", "-DRLVC_AT_ONCE=0")  # what a controller uses, one of each
+        "-DRLVC_DISCOUNTS=1", "-DRLVC_AT_ONCE=0", "-DRLVC_STARTS=0")  # what a controller uses, one of each
 HELPER_STACK = 64      # granted to a function of the compiler's own library
 STACK_TARGETS = ("M0", "M3", "M4F", "rv32imac")
 

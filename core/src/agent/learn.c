@@ -99,7 +99,7 @@ static void enter(rlvc_agent *agent, uint8_t phase) {
     } else if (phase == RLVC_PHASE_NOVELTY) {
         rlvc_solver_input input = rlvc_learner_solver_input(agent);
         agent->explorer.min_tried = rlvc_explorer_min_tried(learner->end, pairs(agent));
-        rlvc_novelty_begin(&learner->work.novelty, &input, &agent->values);
+        rlvc_novelty_begin(&learner->work.novelty, &input, &agent->values, learner->end);
     }
 }
 
@@ -466,7 +466,7 @@ static uint32_t step_solve(rlvc_agent *agent, uint32_t budget) {
 static uint32_t step_seek(rlvc_agent *agent, uint32_t budget) {
     rlvc_novelty_cursor *seeking = &agent->learner.work.novelty;
     rlvc_solver_input input = rlvc_learner_solver_input(agent);
-    uint32_t used = SOLVE_UNITS * rlvc_novelty_step(seeking, &input, &agent->values,
+    uint32_t used = SOLVE_UNITS * rlvc_novelty_step(seeking, &input, &agent->values, &agent->replay,
                                                     &agent->explorer, budget / SOLVE_UNITS);
     if (seeking->done)
         leave_model(agent);

@@ -9,7 +9,8 @@
  * config.dependence; of RLVC_METHODS 0 is classes and 1 the planner; of RLVC_ORACLES 0 is the
  * default oracle and 1 the domain's own; of RLVC_EFFECTS 0 is a smallest_effect of 0 and 1 any
  * other; of RLVC_DISCOUNTS 0 is a discount below 1, and 1 is 1. -DRLVC_AT_ONCE=0 leaves out what is
- * there only to be fast where budgets or models are large, and large models.
+ * there only to be fast where budgets or models are large, and large models; -DRLVC_STARTS=0 that
+ * exploration seeks new episodes.
  *
  * What is left out is compiled all the same, under conditions that are constant, so that it cannot
  * rot. */
@@ -48,6 +49,10 @@
 /* Models of more classes are large: value_iteration.h has other sweeps for them. */
 #define RLVC_CLASSES_SMALL 512u
 #define RLVC_CLASSES_MAX (RLVC_AT_ONCE ? 65535u : RLVC_CLASSES_SMALL)
+
+#ifndef RLVC_STARTS
+#define RLVC_STARTS 1
+#endif
 
 #ifndef RLVC_EFFECTS
 #define RLVC_EFFECTS 3u

@@ -32,15 +32,15 @@ rlvc_status rlvc_counts_size(const rlvc_agent *agent, const rlvc_counts *counts,
     return RLVC_OK;
 }
 
-/* What is novel, by the model. */
+/* What is novel, by the model; counts do not tell where episodes began. */
 static void seek(rlvc_agent *agent, const rlvc_solver_input *input, uint64_t total) {
     rlvc_novelty_cursor *novelty = &agent->learner.work.novelty;
     uint32_t interactions = rlvc_count_stored((rlvc_count)total);
     agent->explorer.min_tried =
         rlvc_explorer_min_tried(interactions, agent->tree.classes * agent->config.actions);
-    rlvc_novelty_begin(novelty, input, &agent->values);
+    rlvc_novelty_begin(novelty, input, &agent->values, 0);
     while (!novelty->done)
-        (void)rlvc_novelty_step(novelty, input, &agent->values, &agent->explorer,
+        (void)rlvc_novelty_step(novelty, input, &agent->values, &agent->replay, &agent->explorer,
                                 RLVC_BUDGET_UNBOUNDED);
 }
 

@@ -24,13 +24,33 @@ static void begin_sweep(rlvc_novelty_cursor *cursor) {
     begin_class(cursor);
 }
 
+static void clear(float *nearness, uint32_t classes) {
+    for (uint32_t c = 0; c < classes; c++)
+        nearness[c] = 0.0f;
+}
+
 void rlvc_novelty_begin(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
-                        rlvc_values *values) {
-    for (uint32_t c = 0; c < input->classes; c++)
-        values->pair.nearness[c] = 0.0f;
+                        rlvc_values *values, uint32_t end) {
+    clear(values->pair.nearness, input->classes);
+    if (RLVC_STARTS) {
+        rlvc_starts_begin(&cursor->starts, end);
+        cursor->counting = 1;
+    }
     cursor->sweeps = 0;
     cursor->done = 0;
     begin_sweep(cursor);
+}
+
+/* Looks where episodes began, and then goes on to the first sweep. */
+static uint32_t count_starts(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
+                             rlvc_values *values, const rlvc_replay *replay, uint32_t budget) {
+    uint32_t used = rlvc_starts_step(&cursor->starts, replay, values->pair.begun, budget);
+    if (used == 0) {
+        cursor->counting = 0;
+        cursor->ended = rlvc_starts_chance(&cursor->starts);
+        clear(values->pair.nearness, input->classes);
+    }
+    return used;
 }
 
 /* U(c), once every U(c, a) of the class is there. */
@@ -79,7 +99,8 @@ static uint32_t step_pairs(rlvc_novelty_cursor *cursor, const rlvc_solver_input 
         const uint32_t units = end - at + 1u;
         if (budget - used < units)
             break;
-        const rlvc_sum sum = rlvc_model_sum(input->transition, at, end, values->pair.nearness);
+        const rlvc_sum sum = rlvc_model_sum(input->transition, at, end, values->pair.nearness,
+                                            RLVC_STARTS ? now.ended : 0.0f);
         now.transition = end;
         close_pair(&now, input, values, explorer, sum.weight,
                    at < end ? rlvc_model_mean(&sum) : 0.0f);
@@ -90,14 +111,21 @@ static uint32_t step_pairs(rlvc_novelty_cursor *cursor, const rlvc_solver_input 
 }
 
 uint32_t rlvc_novelty_step(rlvc_novelty_cursor *cursor, const rlvc_solver_input *input,
-                           rlvc_values *values, rlvc_explorer *explorer, uint32_t budget) {
+                           rlvc_values *values, const rlvc_replay *replay, rlvc_explorer *explorer,
+                           uint32_t budget) {
+    if (RLVC_STARTS && cursor->counting) {
+        uint32_t counted = count_starts(cursor, input, values, replay, budget);
+        if (counted > 0)
+            return counted;
+    }
     uint32_t used = RLVC_AT_ONCE ? step_pairs(cursor, input, values, explorer, budget) : 0u;
     while (used < budget && !cursor->done) {
         size_t pair = rlvc_values_pair(values, cursor->class_id, cursor->action);
         uint32_t end = values->begin.transition[pair + 1u];
         if (cursor->transition < end) {
             used += rlvc_model_add(&cursor->sum, input->transition, &cursor->transition, end,
-                                   budget - used, values->pair.nearness);
+                                   budget - used, values->pair.nearness,
+                                   RLVC_STARTS ? cursor->ended : 0.0f);
         } else {
             close_pair(cursor, input, values, explorer, cursor->sum.weight,
                        rlvc_sum_mean(&cursor->sum));
@@ -107,9 +135,10 @@ uint32_t rlvc_novelty_step(rlvc_novelty_cursor *cursor, const rlvc_solver_input 
     return used;
 }
 
-void rlvc_novelty_mark(const rlvc_novelty_cursor *cursor, uint32_t word[4]) {
+void rlvc_novelty_mark(const rlvc_novelty_cursor *cursor, uint32_t word[5]) {
     word[0] = cursor->sweeps;
     word[1] = cursor->class_id;
     word[2] = cursor->action;
     word[3] = cursor->transition;
+    word[4] = RLVC_STARTS && cursor->counting ? cursor->starts.position : 0;
 }

@@ -79,7 +79,7 @@ static float back_up(const rlvc_worth *worth, size_t pair, const float *value) {
         return worth->model.q[pair];
     if (end - at > 1u) {
         rlvc_sum_clear(&sum);
-        (void)rlvc_model_add(&sum, worth->rows.transition, &at, end, end - at, value);
+        (void)rlvc_model_add(&sum, worth->rows.transition, &at, end, end - at, value, 0.0f);
         mean = rlvc_sum_mean(&sum);
     }
     return worth->model.pair.reward[pair] + worth->agent->config.discount * mean;

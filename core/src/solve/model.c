@@ -134,13 +134,13 @@ void rlvc_model_mark(const rlvc_model_cursor *model, uint32_t word[8]) {
 }
 
 uint32_t rlvc_model_add(rlvc_sum *sum, const rlvc_transition *transition, uint32_t *at,
-                        uint32_t end, uint32_t budget, const float *value) {
+                        uint32_t end, uint32_t budget, const float *value, float ended) {
     rlvc_sum total = *sum;
     uint32_t from = *at;
     uint32_t to = end - from < budget ? end : from + budget;
     for (uint32_t i = from; i < to; i++) {
         uint32_t next = transition[i].next;
-        rlvc_sum_add(&total, next == RLVC_NO_CLASS ? 0.0f : value[next], transition[i].count);
+        rlvc_sum_add(&total, next == RLVC_NO_CLASS ? ended : value[next], transition[i].count);
     }
     *sum = total;
     *at = to;

@@ -47,19 +47,19 @@ void rlvc_model_single(rlvc_model_cursor *model, const rlvc_target_input *input,
 void rlvc_model_mark(const rlvc_model_cursor *model, uint32_t word[8]);
 
 /* Adds the values of the classes that transitions [*at, end) lead to, of at most `budget` (>= 1) of
- * them. *at becomes the next one. A terminated episode leads to the value 0.
+ * them. *at becomes the next one. A terminated episode leads to the value `ended`.
  * @return how many were added. O(budget). */
 uint32_t rlvc_model_add(rlvc_sum *sum, const rlvc_transition *transition, uint32_t *at,
-                        uint32_t end, uint32_t budget, const float *value);
+                        uint32_t end, uint32_t budget, const float *value, float ended);
 
 /* What rlvc_model_add makes of transitions [at, end), from nothing: inline, and the first term
  * needs no compensation. O(end - at). */
 static inline rlvc_sum rlvc_model_sum(const rlvc_transition *transition, uint32_t at, uint32_t end,
-                                      const float *value) {
+                                      const float *value, float ended) {
     rlvc_sum sum = {0.0f, 0.0f, 0u};
     for (uint32_t i = at; i < end; i++) {
         const uint32_t next = transition[i].next;
-        const float term = next == RLVC_NO_CLASS ? 0.0f : value[next];
+        const float term = next == RLVC_NO_CLASS ? ended : value[next];
         if (i > at) {
             rlvc_sum_add(&sum, term, transition[i].count);
         } else {

@@ -149,7 +149,7 @@ static uint32_t add_transitions(rlvc_solver_cursor *solver, const rlvc_solver_in
     const uint32_t from = solver->transition;
     if (!EVALUATES(solver))
         return rlvc_model_add(&solver->sum, input->transition, &solver->transition, end, budget,
-                              values->value);
+                              values->value, 0.0f);
     solver->transition = end - from < budget ? end : from + budget;
     add_plainly(&solver->sum, input->transition, from, solver->transition, values->value);
     return solver->transition - from;
@@ -178,7 +178,7 @@ static uint32_t sweep(rlvc_solver_cursor *solver, const rlvc_solver_input *input
 /* The mean value of what follows a pair, by transitions [at, end). */
 static float mean_value(const rlvc_transition *transition, uint32_t at, uint32_t end,
                         const float *value) {
-    const rlvc_sum sum = rlvc_model_sum(transition, at, end, value);
+    const rlvc_sum sum = rlvc_model_sum(transition, at, end, value, 0.0f);
     return rlvc_model_mean(&sum);
 }
 

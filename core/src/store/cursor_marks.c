@@ -154,7 +154,8 @@ static void novelty_single(rlvc_agent *agent) {
     rlvc_solver_input input = rlvc_learner_solver_input(agent);
     rlvc_explorer counted = agent->explorer;
     counted.count = NULL;
-    (void)rlvc_novelty_step(&agent->learner.work.novelty, &input, &agent->values, &counted, 1);
+    (void)rlvc_novelty_step(&agent->learner.work.novelty, &input, &agent->values, &agent->replay,
+                            &counted, 1);
 }
 
 /* Begins, looks at a position of the ring, or weighs what was found. */
@@ -282,7 +283,7 @@ static rlvc_status redo_solve(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
 static rlvc_status redo_seek(rlvc_agent *agent, const rlvc_cursor_mark *mark) {
     rlvc_solver_input input = rlvc_learner_solver_input(agent);
     (void)redo(agent, RLVC_PHASE_MODEL, NULL);
-    rlvc_novelty_begin(&agent->learner.work.novelty, &input, &agent->values);
+    rlvc_novelty_begin(&agent->learner.work.novelty, &input, &agent->values, agent->learner.end);
     return advance_to(agent, mark);
 }
 

@@ -14,6 +14,7 @@
 typedef union rlvc_pair_floats {
     float *reward;   /* [classes_max][actions] mean reward: from the model to the solution */
     float *nearness; /* [classes_max] U(c): see novelty.h */
+    uint32_t *begun; /* [classes_max] before U: see starts.h */
     float *squares;  /* [classes_max][actions] while pruning: see q_variance.h */
     float *target;   /* [classes_max] an incremental solver's copy of V */
 } rlvc_pair_floats;
