@@ -99,3 +99,12 @@ def test_an_error_is_read_however_long_its_names_are(tmp_path):
             rlvc.logs.read(file)
         assert len(str(caught.value)) < 1300
         assert str(caught.value).startswith(str(file))
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+@pytest.mark.parametrize("action", [1e300, -1e19, 2**64 - 1, 2**63])
+def test_actions_beyond_64_bits(action):
+    dtype = np.float64 if isinstance(action, float) else np.uint64
+    log = arrays() | {"actions": np.array([action, 1, 2] * 3, dtype)}
+    with pytest.raises(errors.LogError, match=r"actions: .* is beyond a number of 64 bits"):
+        rlvc.learn_from(log)

@@ -142,5 +142,8 @@ def _distinct(table: Table, label: str, values: Array) -> tuple[npt.NDArray[np.i
         )
     table.notes.append(f"{label}: {len(found)} different values are the actions")
     if found.dtype.kind == "u" or (found.dtype.kind == "f" and (found % 1 == 0).all()):
+        most = max(int(found.max()), -int(found.min()))
+        if most >= 2**63:
+            raise LogError(f"{table.where}: {label}: {most:.4g} is beyond a number of 64 bits")
         found = found.astype(np.int64)
     return index.ravel().astype(np.int64), Actions(len(found), table=found)
