@@ -4,13 +4,14 @@
 
     tools/bench/seeing/ground.py [PHOTOGRAPH ...] [--runs N] [--seed N] [--heading-unknown]
 
-rlvc/GroundView-v0 on pictures of scikit-image and scikit-learn. A run has a goal of its own, metrics that are
-fitted to 60 views of its photograph, one for corners and one for the view's quarters, and 4,000 interactions: the first eighth at random, then of ten episodes seven
-in which three moves of four are what has been learnt so far. With --heading-unknown the camera is turned
-by any angle, and it has 8,000. A line tells the share of 25 episodes that find the goal within 60 moves, how
-many moves they take in relation to those of an oracle that knows where it is, both also for a camera that never
-takes back its last move but makes the best of the other three, and how many classes there are. Needs
-scikit-image, scikit-learn and OpenCV."""
+rlvc/GroundView-v0 on pictures of scikit-image and scikit-learn. A run has a goal of its own, metrics that
+are fitted to 60 views of its photograph, one for corners and one for the view's quarters, and 4,000
+interactions: the first eighth at random, then of ten episodes seven in which three moves of four are what
+has been learnt so far. With --heading-unknown the camera is turned by any angle, and it has 8,000. A line
+tells the share of 25 episodes that find the goal within 60 moves, how many moves they take in relation to
+those of an oracle that knows where it is, both also for a camera that never takes back its last move but
+makes the best of the other three, and how many classes there are. Needs scikit-image, scikit-learn and
+OpenCV."""
 
 import numpy as np
 
@@ -28,7 +29,7 @@ FOLLOWED, FOLLOWS = 0.7, 0.75  # in such a share of the episodes, and there of t
 
 
 def make_eye(env, random, unknown):
-    """An encoder of corners and of the whole view's colours, whose metrics were fitted to views of the ground."""
+    """An encoder of corners and of the whole view's colours: metrics fitted to views of the ground."""
     env.reset(seed=int(random.integers(2**31)))
     views, pairs = [], []
     for _ in range(VIEWS):
@@ -42,9 +43,11 @@ def make_eye(env, random, unknown):
     else:
         config, kind = rlvc.vision.VisionConfig("sift-upright", axes=16, sigma=2.5), "discriminant"
     whole = rlvc.vision.VisionConfig("quarters", axes=8)
-    metrics = [rlvc.vision.Metric.fit(views, pairs=pairs, config=config, kind=kind, share=SHARE),
-               rlvc.vision.Metric.fit(views, pairs=pairs, config=whole, kind="discriminant", share=SHARE_WHOLE)]
-    extractors = [rlvc.vision.Extractor(metric=metric, form="int8") for metric in metrics]
+    extractors = [
+        rlvc.vision.Extractor(
+            metric=rlvc.vision.Metric.fit(views, pairs=pairs, config=of, kind=by, share=share),
+            form="int8")
+        for of, by, share in ((config, kind, SHARE), (whole, "discriminant", SHARE_WHOLE))]
     return rlvc.vision.Eye(rlvc.vision.Joined(*extractors), margin=1.0)
 
 
