@@ -90,7 +90,10 @@ def files_below(path: str, *endings: tuple[str, ...]) -> list[str]:
 
 
 def _below(folder: str) -> list[str]:
-    """Return the files below a folder of this machine, where links may lead back."""
+    """Return the files below a folder of this machine, where links may lead back.
+
+    A name that is not UTF-8 raises UnicodeError.
+    """
 
     def refuse(error: OSError) -> None:
         raise error
@@ -106,7 +109,8 @@ def _below(folder: str) -> list[str]:
             if real not in known and not around.is_relative_to(real):
                 known.add(real)
                 folders.append(name)
-    "".join(files).encode()
+    for name in files:
+        name.encode()  # raises UnicodeError where Arrow could not open the file
     return files
 
 
